@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// All of tsubu that needs no MPI. For whoever includes the library; inside it nobody includes this header.
+#pragma once
+
+#include <tsubu/version.hpp>
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/executor.hpp>
+#include <tsubu/core/expects.hpp>
+#include <tsubu/core/random.hpp>
+#include <tsubu/core/types.hpp>
+
+#include <tsubu/id/adaptive_storage.hpp>
+#include <tsubu/id/bitmap_storage.hpp>
+#include <tsubu/id/chained_storage.hpp>
+#include <tsubu/id/concepts.hpp>
+#include <tsubu/id/copies.hpp>
+#include <tsubu/id/dense_storage.hpp>
+#include <tsubu/id/flat_storage.hpp>
+#include <tsubu/id/hash.hpp>
+#include <tsubu/id/id_map.hpp>
+#include <tsubu/id/id_range.hpp>
+#include <tsubu/id/memory_limit.hpp>
+#include <tsubu/id/paged_storage.hpp>
+#include <tsubu/id/prime.hpp>
+#include <tsubu/id/same_id_links.hpp>
+#include <tsubu/id/sizing.hpp>

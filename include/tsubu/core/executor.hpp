@@ -17,7 +17,7 @@ namespace tsubu {
 /// Runs part(0) .. part(concurrency() - 1), each once, and returns when all have ended.
 ///  1. run(part) calls part exactly once for each k in [0, concurrency());
 ///  2. what the parts wrote happens before run returns;
-///  3. the parts that tsubu passes do not throw.
+///  3. the parts that tsubu passes do not throw, and run does not add an exception of its own.
 template <class Executor>
 concept executor = requires(const Executor& on, void (&part)(std::size_t)) {
     { on.concurrency() } noexcept -> std::same_as<std::size_t>;
@@ -48,9 +48,9 @@ public:
     template <class Part>
     void run(Part&& part) const {
         std::vector<std::thread> team;
-        team.reserve(count_ - 1);
         std::size_t started = 1;
         try {
+            team.reserve(count_ - 1);
             for (; started < count_; ++started) team.emplace_back([&part, k = started] { part(k); });
         } catch (const std::exception&) {
             // std::system_error: no more threads. The parts that were not started run below.

@@ -124,7 +124,8 @@ public:
     void update(std::span<const id_type> before, std::span<const id_type> after, same_id_links& same);
 
     /// Inserts the id or overwrites its index; links are not touched. Strong guarantee.
-    /// @throws input_error for a negative id or index; what the policy throws when it grows.
+    /// @throws input_error for a negative id or index; limit_error for index 2^31 - 1; what the policy throws when it
+    ///         grows.
     void assign(id_type id, index_t index) {
         if (detail::is_negative(id)) [[unlikely]]
             detail::raise<input_error>("id_map::assign", "id " + std::to_string(id) + " is negative",
@@ -134,6 +135,11 @@ public:
                                        "index " + std::to_string(index) + " of id " + std::to_string(id) +
                                            " is negative",
                                        "erase(id) forgets an id");
+        if (static_cast<std::size_t>(index) >= max_index_count) [[unlikely]]
+            detail::raise<limit_error>("id_map::assign",
+                                       "index " + std::to_string(index) + " of id " + std::to_string(id) +
+                                           " is past the last, " + std::to_string(max_index_count - 1),
+                                       "spread the particles over more ranks");
         storage_.assign(id, index);
     }
     /// Forgets the id; links are not touched. @return whether it was there.

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Every map x every pattern of ids x every size x every operation, interleaved, into one JSON file.
+///
+/// A group is one set of ids: all maps hold it at the same time, and the repetitions of all their operations run in
+/// random order, so that whatever disturbs the machine disturbs everyone alike.
+
+#include "patterns/lammps_ids.hpp"
+#include "patterns/patterns.hpp"
+#include "rivals/std_unordered_map.hpp"
+#include "support/contender.hpp"
+#include "support/row_reporter.hpp"
+#include "support/run_context.hpp"
+#if defined(TSUBU_RIVAL_BOOST)
+#include "rivals/boost_flat_map.hpp"
+#endif
+#if defined(TSUBU_RIVAL_ABSL)
+#include "rivals/absl_flat_hash_map.hpp"
+#endif
+
+#include <tsubu/id/adaptive_storage.hpp>
+#include <tsubu/id/bitmap_storage.hpp>
+#include <tsubu/id/chained_storage.hpp>
+#include <tsubu/id/dense_storage.hpp>
+#include <tsubu/id/flat_storage.hpp>
+#include <tsubu/id/paged_storage.hpp>
+
+#include <chrono>       // std::chrono::steady_clock
+#include <cstdio>       // std::fprintf
+#include <cstdlib>      // EXIT_SUCCESS
+#include <cstring>      // std::strcmp
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <vector>       // std::vector
+
+namespace bench {
+namespace {
+
+// ---------------------------------------------------------------------------------------------------------------
+// The registration lists: who is measured, and at what. Add a policy of your own as a line of `series_list`.
+
+struct series {
+    const char* name;
+    std::unique_ptr<contender> (*make)(const workload&);
+    tsubu::instruction_set most = tsubu::instruction_set::avx512;
+    bool (*fits)(const workload&) = nullptr;  ///< measured only where this says so
+};
+
+template <class Storage>
+std::unique_ptr<contender> map_of(const workload& work) {
+    return std::make_unique<map_contender<Storage>>(work);
+}
+template <class Table, class Place>
+std::unique_ptr<contender> table_of(const workload& work) {
+    return std::make_unique<table_contender<Table, Place>>(work);
+}
+bool ids_fill_their_range(const workload& work) { return work.fills_range; }
+bool vectors_are_used(const workload&) { return tsubu::best_instruction_set() > tsubu::instruction_set::portable; }
+
+using tsubu::instruction_set;
+
+constexpr series series_list[] = {
+    {"dense", map_of<tsubu::dense_storage<id_t>>},
+    {"bitmap", map_of<tsubu::bitmap_storage<id_t>>},
+    {"paged", map_of<tsubu::paged_storage<id_t>>},
+    {"flat", map_of<tsubu::flat_storage<id_t>>},
+    {"flat_portable", map_of<tsubu::flat_storage<id_t>>, instruction_set::portable, vectors_are_used},
+    {"chained_mixed", map_of<tsubu::chained_storage<tsubu::mixed, id_t>>},
+    {"chained_mod_prime", map_of<tsubu::chained_storage<tsubu::mod_prime, id_t>>},
+    {"adaptive", map_of<tsubu::adaptive_storage<id_t>>},
+    {"adaptive_portable", map_of<tsubu::adaptive_storage<id_t>>, instruction_set::portable, vectors_are_used},
+    {"std_unordered_map", map_of<std_unordered_map<id_t>>},
+#if defined(TSUBU_RIVAL_BOOST)
+    {"boost_flat_map", map_of<boost_flat_map<id_t>>},
+#endif
+#if defined(TSUBU_RIVAL_ABSL)
+    {"absl_flat_hash_map", map_of<absl_flat_hash_map<id_t>>},
+    {"absl_prefetched", map_of<absl_prefetched<id_t>>},
+#endif
+    {"oracle", table_of<oracle, std::uint32_t>},
+    {"plain_array", table_of<plain_array, id_t>, instruction_set::avx512, ids_fill_their_range},
+};
+
+using pass = void (*)(contender&, const workload&, std::vector<tsubu::index_t>& answers);
+
+template <question_stream workload::*Stream>
+void find_batch(contender& map, const workload& work, std::vector<tsubu::index_t>& answers) {
+    answers.resize((work.*Stream).ids.size());
+    map.find_batch(work.*Stream, answers);
+    benchmark::DoNotOptimize(answers.data());
+    benchmark::ClobberMemory();
+}
+void find_single(contender& map, const workload& work, std::vector<tsubu::index_t>&) {
+    benchmark::DoNotOptimize(map.find_single(work.hit));
+}
+void find_dependent(contender& map, const workload& work, std::vector<tsubu::index_t>&) {
+    benchmark::DoNotOptimize(map.find_dependent(work.hit));
+}
+void rebuild(contender& map, const workload&, std::vector<tsubu::index_t>&) {
+    map.rebuild();
+    benchmark::ClobberMemory();
+}
+void rebuild_without_links(contender& map, const workload&, std::vector<tsubu::index_t>&) {
+    map.rebuild_without_links();
+    benchmark::ClobberMemory();
+}
+void update(contender& map, const workload&, std::vector<tsubu::index_t>&) {
+    map.update();
+    benchmark::ClobberMemory();
+}
+
+struct operation {
+    const char* name;
+    pass run;
+    bool per_particle;  ///< the time is divided by the particles; else by the questions
+    bool in_patterns;   ///< measured for every pattern, not for the sweep of T/N alone
+};
+
+constexpr operation operations[] = {
+    {"rebuild", rebuild, true, true},
+    {"rebuild_without_links", rebuild_without_links, true, false},
+    {"update", update, true, false},
+    {"find_single", find_single, false, true},
+    {"find_dependent", find_dependent, false, false},
+    {"find_hit", find_batch<&workload::hit>, false, true},
+    {"find_half", find_batch<&workload::half>, false, true},
+    {"find_near", find_batch<&workload::near>, false, false},
+};
+
+// ---------------------------------------------------------------------------------------------------------------
+// The plan: which groups.
+
+enum class extent { quick, standard, full };
+
+constexpr std::size_t sizes[] = {10'000, 100'000, 1'000'000, 10'000'000};
+constexpr std::uint64_t ratios[] = {1, 2, 8, 64, 1024, 1'000'000};
+
+struct group {
+    const pattern* made_by;  ///< null: the ids of a file
+    std::size_t owned;
+    std::uint64_t ratio;
+    bool sweep;  ///< all operations
+
+    [[nodiscard]] std::string name() const {
+        return std::string(made_by != nullptr ? made_by->name : "file") + "/N:" + std::to_string(owned) +
+               "/ratio:" + std::to_string(ratio);
+    }
+    // In microseconds, roughly: shares of the time that is left.
+    [[nodiscard]] double weight() const { return (sweep ? 2.0 : 1.0) * (4e5 + static_cast<double>(owned)); }
+};
+
+std::vector<group> plan(extent how_much) {
+    std::vector<group> groups;
+    const bool quick = how_much == extent::quick;
+    const bool full = how_much == extent::full;
+    for (const auto owned : sizes)
+        for (const auto ratio : ratios)
+            if ((full || owned <= 1'000'000) && (!quick || ratio == 1 || ratio == 8 || ratio == 1024))
+                groups.push_back({&patterns[0], owned, ratio, true});
+    for (const auto& p : patterns) {
+        const bool tested_sparse = p.make == block || p.make == strided || p.make == clustered;
+        for (const auto owned : sizes) {
+            if (quick && (!p.quick || owned != 100'000)) continue;
+            if (owned == 10'000 && p.make != bucket_multiples && p.make != stride_of<32771>) continue;
+            if (owned == 10'000'000 && (!full || !tested_sparse)) continue;
+            if (p.make != uniform) groups.push_back({&p, owned, 8, false});
+            if (tested_sparse && !quick && owned < 10'000'000) groups.push_back({&p, owned, 1024, false});
+            if (tested_sparse && full && owned < 10'000'000) groups.push_back({&p, owned, 1'000'000, false});
+        }
+    }
+    return groups;
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// One group.
+
+struct measured_series {
+    const series* which;
+    std::unique_ptr<contender> map;
+};
+
+/// How many nodes a look-up visits in the notes' scheme, on average over the particles.
+double mod_prime_visits(const std::vector<id_t>& ids) {
+    const auto buckets = tsubu::next_prime(tsubu::chained_capacity(ids.size()));
+    std::vector<std::uint32_t> length(buckets, 0);
+    double visits = 0;
+    for (const auto id : ids) visits += ++length[static_cast<std::uint64_t>(id) % buckets];
+    return visits / static_cast<double>(ids.size());
+}
+
+/// A series whose passes would take minutes gets a line that says so, and one timed rebuild if that takes seconds.
+bool note_if_degenerate(const series& candidate, const workload& work, const std::string& name, row_reporter& report) {
+    constexpr double too_many_visits = 200;      // a look-up of microseconds
+    constexpr double seconds_of_visits = 2e9;    // at about a nanosecond for each
+    if (std::strcmp(candidate.name, "chained_mod_prime") != 0) return false;
+    const double visits = mod_prime_visits(work.ids);
+    if (visits < too_many_visits) return false;
+    const auto particles = static_cast<double>(work.ids.size());
+    double nanoseconds = -1;
+    if (visits * particles < seconds_of_visits) {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto map = candidate.make(work);
+        nanoseconds = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+        nanoseconds /= particles;
+    }
+    report.degenerate(name + "/rebuild", visits, nanoseconds);
+    report.degenerate(name + "/find_hit", visits, -1);
+    return true;
+}
+
+std::vector<measured_series> make_all(const workload& work, const std::string& group_name, row_reporter& report) {
+    std::vector<measured_series> made;
+    for (const auto& candidate : series_list) {
+        if (candidate.fits != nullptr && !candidate.fits(work)) continue;
+        const auto name = group_name + "/" + candidate.name;
+        if (note_if_degenerate(candidate, work, name, report)) continue;
+        try {
+            const with_instruction_set limited(candidate.most);
+            made.push_back({&candidate, candidate.make(work)});
+        } catch (const tsubu::limit_error& refusal) {
+            report.refused(name, refusal.what());
+        }
+    }
+    return made;
+}
+
+/// All maps must give the same answers before any is measured. @throws std::runtime_error that names the one.
+void compare_answers(const std::vector<measured_series>& all, const workload& work, const std::string& group_name) {
+    std::vector<tsubu::index_t> expected, found;
+    for (const auto stream : {&workload::hit, &workload::half, &workload::near}) {
+        expected.clear();
+        for (const auto& [which, map] : all) {
+            if (stream == &workload::half && !map->knows_misses()) continue;
+            const with_instruction_set limited(which->most);
+            found.assign((work.*stream).ids.size(), 0);
+            map->find_batch(work.*stream, found);
+            if (expected.empty()) expected = found;
+            if (found != expected)
+                throw std::runtime_error(group_name + ": " + which->name + " answers otherwise than " +
+                                         all.front().which->name + "; its figures would be worthless");
+        }
+    }
+}
+
+void run_operation(benchmark::State& state, const measured_series& subject, const operation& op, const workload& work) {
+    const with_instruction_set limited(subject.which->most);
+    static std::vector<tsubu::index_t> answers;
+    // One pass warms the caches where they are large enough to stay warm.
+    if (work.ids.size() <= 200'000) {
+        op.run(*subject.map, work, answers);
+        if (op.run == update) op.run(*subject.map, work, answers);
+    }
+    for (auto _ : state) op.run(*subject.map, work, answers);
+    if (op.run == update && state.iterations() % 2 != 0) op.run(*subject.map, work, answers);
+    const auto items = op.per_particle ? work.ids.size() : work.hit.ids.size();
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(items));
+    state.counters["bytes_per_particle"] =
+        static_cast<double>(subject.map->memory_bytes()) / static_cast<double>(work.ids.size());
+}
+
+bool applies(const operation& op, const contender& map, const group& to) {
+    if (!to.sweep && !op.in_patterns) return false;
+    return op.run != update || map.can_update();
+}
+
+void run_group(const group& which, const id_set& set, row_reporter& report) {
+    const auto work = make_workload(set, which.owned, 1);
+    const auto name = which.name();
+    const auto all = make_all(work, name, report);
+    compare_answers(all, work, name);
+    benchmark::ClearRegisteredBenchmarks();
+    for (const auto& subject : all)
+        for (const auto& op : operations)
+            if (applies(op, *subject.map, which))
+                benchmark::RegisterBenchmark((name + "/" + subject.which->name + "/" + op.name).c_str(),
+                                             [&](benchmark::State& state) { run_operation(state, subject, op, work); });
+    benchmark::RunSpecifiedBenchmarks(&report);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The command line.
+
+struct options {
+    extent how_much = extent::standard;
+    std::string ids_file;
+    std::string out = "bench_id_map.json";
+    std::string only;
+};
+
+constexpr const char* usage =
+    "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [Google Benchmark's flags]\n"
+    "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5: about 3 minutes\n"
+    "  (neither)   all T/N, all patterns at 1e5 and 1e6: about 15 minutes\n"
+    "  --full      N = 1e7 as well: about an hour and 12 GB of memory\n"
+    "  --ids FILE  also the ids of a LAMMPS data or dump file\n"
+    "  --only TEXT only groups whose name contains it, such as uniform/N:100000/ratio:8\n"
+    "TSUBU_INSTRUCTION_SET=portable|avx2|avx512 limits what the maps may use.\n";
+
+/// Takes our options out of the arguments. @return false if one is not understood.
+bool parse(std::vector<char*>& arguments, options& chosen) {
+    std::vector<char*> rest{arguments.front()};
+    for (std::size_t k = 1; k < arguments.size(); ++k) {
+        const std::string_view word = arguments[k];
+        const bool has_value = k + 1 < arguments.size();
+        if (word == "--quick")
+            chosen.how_much = extent::quick;
+        else if (word == "--full")
+            chosen.how_much = extent::full;
+        else if (word == "--ids" && has_value)
+            chosen.ids_file = arguments[++k];
+        else if (word == "--only" && has_value)
+            chosen.only = arguments[++k];
+        else if (word.starts_with("--benchmark_out="))
+            chosen.out = word.substr(word.find('=') + 1);
+        else if (word.starts_with("--benchmark_"))
+            rest.push_back(arguments[k]);
+        else
+            return false;
+    }
+    arguments = rest;
+    return true;
+}
+
+/// Our defaults for Google Benchmark come first, so that the user's flags override them.
+void initialize_benchmark(const std::vector<char*>& user, extent how_much) {
+    std::vector<std::string> words = {user.front(), "--benchmark_enable_random_interleaving=true",
+                                      how_much == extent::quick ? "--benchmark_repetitions=5"
+                                                                : "--benchmark_repetitions=7",
+                                      how_much == extent::quick ? "--benchmark_min_time=0.01"
+                                                                : "--benchmark_min_time=0.03"};
+    words.insert(words.end(), user.begin() + 1, user.end());
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    int count = static_cast<int>(pointers.size());
+    benchmark::Initialize(&count, pointers.data());
+}
+
+class progress {
+public:
+    explicit progress(double all) : all_(all) {}
+    void begin(std::size_t number, std::size_t count, const std::string& name) const {
+        std::fprintf(stderr, "[%zu/%zu] %-40s %s\n", number, count, name.c_str(), left().c_str());
+    }
+    void end(double weight) { done_ += weight; }
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    [[nodiscard]] std::string left() const {
+        if (done_ <= 0) return "";
+        const int seconds_left = static_cast<int>(seconds() * (all_ - done_) / done_);
+        char text[48];
+        std::snprintf(text, sizeof text, "about %d min %02d s left", seconds_left / 60, seconds_left % 60);
+        return text;
+    }
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    double all_;
+    double done_ = 0;
+};
+
+int run(const options& chosen) {
+    std::vector<group> groups;
+    id_set from_file;
+    if (!chosen.ids_file.empty()) {
+        group of_file{nullptr, 0, 0, true};
+        from_file = from_lammps(chosen.ids_file, of_file.owned);
+        const auto [lowest, highest] = std::minmax_element(from_file.ids.begin(), from_file.ids.end());
+        of_file.ratio = (static_cast<std::uint64_t>(*highest - *lowest) + 1) / from_file.ids.size();
+        groups.push_back(of_file);
+    }
+    double all = 0;
+    for (const auto& planned : plan(chosen.how_much)) groups.push_back(planned);
+    std::erase_if(groups, [&](const group& g) { return g.name().find(chosen.only) == std::string::npos; });
+    for (const auto& g : groups) all += g.weight();
+    if (groups.empty()) {
+        std::fprintf(stderr, "bench_id_map: no group has \"%s\" in its name\n", chosen.only.c_str());
+        return 2;
+    }
+
+    auto context = run_context();
+    constexpr const char* extents[] = {"quick", "standard", "full"};
+    context.emplace_back("extent", extents[static_cast<int>(chosen.how_much)]);
+    if (!chosen.ids_file.empty()) context.emplace_back("ids_file", chosen.ids_file);
+    row_reporter report(chosen.out, context);
+    progress shown(all);
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+        const auto& g = groups[k];
+        shown.begin(k + 1, groups.size(), g.name());
+        run_group(g, g.made_by != nullptr ? g.made_by->make(g.owned, g.ratio, 1) : from_file, report);
+        shown.end(g.weight());
+    }
+    report.close();
+    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+    std::vector<char*> arguments(argv, argv + argc);
+    for (const std::string_view word : arguments)
+        if (word == "--help") {
+            std::fputs(bench::usage, stdout);
+            return EXIT_SUCCESS;
+        }
+    bench::options chosen;
+    if (!bench::parse(arguments, chosen)) {
+        std::fputs(bench::usage, stderr);
+        return 2;
+    }
+    try {
+        bench::initialize_benchmark(arguments, chosen.how_much);
+        return bench::run(chosen);
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "bench_id_map: %s\n", failure.what());
+        return EXIT_FAILURE;
+    }
+}

@@ -1,0 +1,108 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# Sourced by tests/run and bench/run: what is missing on this machine, and how it gets there.
+#
+#   need "what it is" "Debian packages, best first, separated by |" "remedy elsewhere" command...
+#       notes the thing as missing unless the command succeeds
+#   provide
+#       on Debian and Ubuntu says what it will install, installs it, and looks again; elsewhere, or with
+#       install=no, names each missing thing and how to get it. Exits with 3 if something stays missing.
+
+install=${install:-yes}
+missing=()
+
+say() { printf '%s\n' "$*"; }
+die() { # code, message
+    local code=$1
+    shift
+    printf '%s: %s\n' "$program" "$*" >&2
+    exit "$code"
+}
+have() { command -v "$1" >/dev/null 2>&1; }
+at_least() { [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]; } # wanted, found
+
+need() {
+    local what=$1 packages=$2 remedy=$3
+    shift 3
+    "$@" >/dev/null 2>&1 || missing+=("$what"$'\t'"$packages"$'\t'"$remedy")
+}
+
+# Tests for need.
+cmake_is_new_enough() { have cmake && at_least 3.25 "$(cmake --version | sed -n '1s/[^0-9]*//p')"; }
+has_header() { # header, compiler (default: the first one there is)
+    local compiler=${2:-}
+    [ -n "$compiler" ] || for compiler in c++ g++ clang++; do have "$compiler" && break; done
+    printf '#include <%s>\n' "$1" | "$compiler" -std=c++20 -fsyntax-only -x c++ -
+}
+can_sanitize() { # compiler
+    local out
+    out=$(mktemp) || return 1
+    printf 'int main() {}\n' | "$1" -fsanitize=address,undefined -x c++ - -o "$out" && "$out"
+    local result=$?
+    rm -f "$out"
+    return $result
+}
+compiles_cxx20() { # compiler
+    printf '#include <concepts>\n#include <span>\nint main() {}\n' | "$1" -std=c++20 -fsyntax-only -x c++ -
+}
+
+compiler_package() { # compiler -> its Debian package
+    case ${1##*/} in
+    clang++*) printf 'clang%s' "${1##*clang++}" ;;
+    *) printf '%s' "${1##*/}" ;;
+    esac
+}
+on_debian() { have apt-get && [ -r /etc/debian_version ]; }
+first_available() { # a|b|c -> the first that apt knows; nothing if it knows none
+    local package
+    for package in ${1//|/ }; do
+        if apt-cache show "$package" >/dev/null 2>&1; then
+            printf '%s' "$package"
+            return
+        fi
+    done
+}
+
+say_missing() {
+    local entry what packages remedy
+    say "$program: missing on this machine:"
+    for entry in "${missing[@]}"; do
+        IFS=$'\t' read -r what packages remedy <<<"$entry"
+        say "  - $what: $remedy (Debian, Ubuntu: ${packages//|/ or })"
+    done
+}
+
+provide() { # the function that calls need for everything
+    local list_needs=$1 entry what packages remedy package as_root=() wanted=()
+    missing=()
+    "$list_needs"
+    [ ${#missing[@]} -gt 0 ] || return 0
+    say_missing
+    [ "$install" = yes ] || die 3 "nothing installed, as asked; install the above and start again"
+    on_debian || die 3 "this system has no apt; install the above and start again"
+    if [ "$(id -u)" -ne 0 ]; then
+        have sudo || die 3 "not root, and there is no sudo; install the above and start again"
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -qq || say "$program: apt-get update failed; trying with the lists that are there"
+    for entry in "${missing[@]}"; do
+        IFS=$'\t' read -r what packages remedy <<<"$entry"
+        package=$(first_available "$packages")
+        [ -n "$package" ] || continue # apt does not know it; what another package brings may do
+        case " ${wanted[*]-} " in *" $package "*) ;; *) wanted+=("$package") ;; esac
+    done
+    [ ${#wanted[@]} -gt 0 ] || die 3 "the package lists of this system have none of it; install the above and start again"
+    say "$program: installing with apt-get: ${wanted[*]}"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${wanted[@]}" \
+        </dev/null || die 3 "apt-get could not install: ${wanted[*]}"
+    hash -r
+    missing=()
+    "$list_needs"
+    [ ${#missing[@]} -gt 0 ] || return 0
+    say_missing
+    die 3 "still missing after the installation"
+}
+
+jobs_of_this_machine() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || printf 2; }
+# The generator may be chosen only when a build directory is new.
+generator_for() { [ -e "$1/CMakeCache.txt" ] || ! have ninja || printf -- '-GNinja'; }

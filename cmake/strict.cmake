@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+# tsubu_strict: warnings as errors, and sanitizers if asked, for our own tests and benches; no consumer sees it.
+set(TSUBU_SANITIZE "" CACHE STRING "Sanitizers for tests and benches, as in -fsanitize=: address,undefined")
+
+add_library(tsubu_strict INTERFACE)
+target_compile_options(tsubu_strict INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wsign-conversion -Werror)
+if(TSUBU_SANITIZE)
+    # -O1 for speed; frame pointers for traces; the assertions see out-of-range operator[] of vector and span.
+    target_compile_options(tsubu_strict INTERFACE -fsanitize=${TSUBU_SANITIZE} -fno-sanitize-recover=all
+        -fno-omit-frame-pointer -O1)
+    target_compile_definitions(tsubu_strict INTERFACE _GLIBCXX_ASSERTIONS)
+    target_link_options(tsubu_strict INTERFACE -fsanitize=${TSUBU_SANITIZE})
+endif()

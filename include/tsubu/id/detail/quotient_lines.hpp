@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Lines of slots that identify an id exactly without storing it: the table inside flat_storage.
+///
+/// x = id - base has W bits. h(x) = (x ^ (x >> fold)) * multiplier mod 2^W is a bijection (fold >= W/2, multiplier
+/// odd). The line is floor(h * lines / 2^W), so the line implies all but the low r bits of h, r = about W - log2(lines):
+/// a slot that keeps those r bits tells every id of its line from every other.
+///
+///     slot, 32 or 64 bits      | remainder (r) |  unused  | displacement + 1 (2..3) | index + 1 |      0 = empty
+///                               <------------ tag, under tag_mask ----------------->
+///     line, 64 bytes           | slot | slot | slot | ...                16 slots of 4 bytes, or 8 of 8 bytes
+///     table                    | line 0 | ... | line lines-1 | 7 lines for what the last ones spill | 1 empty line |
+///                              | overflow: one bit per line | indices (keyed lines only) |
+///
+/// The bits of h below those that choose the line choose the preferred slot. An id lies in the first slot at or
+/// after the preferred one (around the line's end) that was free; if the line was full, the line's overflow bit is set
+/// and the id lies in one of the next lines, with its displacement; what finds no place there goes to a small stash.
+/// It is critical that no slot becomes empty again before the table is cleared: then an empty slot on the way of an id
+/// means that the id is not there. So erase leaves the tag and sets index + 1 to 0, which a look-up reads as absent.
+/// Tags are never 0, since displacement + 1 is not, so an empty slot never matches.
+///
+/// Keyed lines hold ids of more bits than fit: the slot is h in full (8 bytes), the index + 1 stands in an array
+/// beside it; base is a value that no id has, so h is never 0.
+///
+/// A pattern of ids that one multiplier maps badly shows itself by a full stash: the next multiplier is taken.
+///
+/// Source: quotienting as in Cleary 1984, "Compact hash tables using bidirectional linear probing",
+/// doi:10.1109/TC.1984.1676499; multiply-shift hashing as in Dietzfelbinger et al. 1997, doi:10.1006/jagm.1997.0873.
+#pragma once
+
+#include <tsubu/core/random.hpp>
+#include <tsubu/core/types.hpp>
+
+#include <bit>      // std::bit_width, std::countr_zero
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::uint32_t
+
+#if defined(__SSE2__)
+#include <emmintrin.h>  // part of every x86-64
+#endif
+
+namespace tsubu::detail {
+
+/// 64 bytes, the unit of transfer between memory and cache, and of allocation.
+struct alignas(64) cache_line {
+    std::byte bytes[64];
+};
+
+inline constexpr std::uint32_t spill_lines = 7;              // displacement + 1 has at most 3 bits: 1 .. 7
+inline constexpr std::uint32_t extra_lines = spill_lines + 1;  // and the line that is always empty
+inline constexpr std::uint32_t most_displacement_bits = 3;   // further away than 6 lines nothing ever was
+inline constexpr std::uint32_t least_displacement_bits = 2;  // 1 bit would leave no displacement but 0
+
+/// How one line is read: as 16 slots of 4 bytes, 8 of 8 bytes, or 8 keys of 8 bytes.
+template <class Slot, bool Keyed = false>
+struct line_layout {
+    using slot_type = Slot;
+    static constexpr bool keyed = Keyed;
+    static constexpr std::uint32_t slot_bits = sizeof(Slot) * 8;
+    static constexpr std::uint32_t slots = 64 / sizeof(Slot);
+    static constexpr std::uint32_t place_shift = 32 - static_cast<std::uint32_t>(std::countr_zero(slots));
+    static_assert(!Keyed || sizeof(Slot) == 8);
+};
+using narrow_lines = line_layout<std::uint32_t>;
+using wide_lines = line_layout<std::uint64_t>;
+using keyed_lines = line_layout<std::uint64_t, true>;
+
+/// What an id becomes: its preferred place (line * slots + slot) and its tag at displacement 0.
+template <class Slot>
+struct located {
+    std::uint64_t place;
+    Slot tag;
+};
+
+/// Everything a look-up needs, held by value: parameters of the hash and where the lines are.
+struct line_table {
+    std::byte* memory = nullptr;       // lines, then overflow bits, then indices
+    std::uint64_t* overflow = nullptr;  // bit L: something passed line L because it was full
+    std::uint32_t* indices = nullptr;  // keyed lines only: index + 1 per place
+    std::uint64_t base = 0;            // x = id - base
+    std::uint64_t limit = 0;           // x - least_x <= limit, else the id cannot be here
+    std::uint64_t least_x = 0;         // 0; for keyed lines 1: the base itself is no id
+    std::uint64_t multiplier = 0;      // odd * 2^(slot_bits - W)
+    std::uint32_t fold = 0;            // ceil(W / 2)
+    std::uint32_t bits = 0;            // W
+    std::uint32_t tag_shift = 0;       // W - r: brings the remainder to the top of the slot
+    std::uint32_t index_bits = 0;
+    std::uint32_t lines = 0;
+    std::uint32_t most_probes = 0;  // lines an id may lie in: greatest displacement + 1
+    std::uint64_t tag_mask = 0;
+    std::uint64_t tag_step = 0;  // displacement + 1 counts in units of this; 0 for keyed lines
+
+    template <class Layout>
+    [[nodiscard]] auto* slots() const noexcept {
+        return reinterpret_cast<typename Layout::slot_type*>(memory);
+    }
+    [[nodiscard]] bool may_hold(std::uint64_t x) const noexcept { return x - least_x <= limit; }
+    [[nodiscard]] bool overflowed(std::uint64_t line) const noexcept {
+        return (overflow[line / 64] >> (line % 64) & 1) != 0;
+    }
+    /// Place of the line that is always empty: where ids out of range look.
+    template <class Layout>
+    [[nodiscard]] std::uint32_t nowhere() const noexcept {
+        return (lines + spill_lines) * Layout::slots;
+    }
+
+    template <class Layout>
+    [[nodiscard, gnu::always_inline]] located<typename Layout::slot_type> locate(std::uint64_t x) const noexcept {
+        using Slot = typename Layout::slot_type;
+        const auto narrow = static_cast<Slot>(x);
+        const auto h = static_cast<Slot>((narrow ^ (narrow >> fold)) * static_cast<Slot>(multiplier));
+        const std::uint64_t high = h >> (Layout::slot_bits - 32);
+        const auto tag = static_cast<Slot>(static_cast<Slot>(h << tag_shift) | static_cast<Slot>(tag_step));
+        return {high * lines >> Layout::place_shift, tag};
+    }
+};
+
+/// Bit k: slot k of the line that `place` lies in matches the tag.
+template <class Layout>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t matches(const typename Layout::slot_type* line,
+                                                               typename Layout::slot_type tag,
+                                                               typename Layout::slot_type mask) noexcept {
+#if defined(__SSE2__)
+    const auto* quarter = reinterpret_cast<const __m128i*>(line);
+    __m128i wanted;
+    __m128i under;
+    if constexpr (Layout::slots == 16) {
+        wanted = _mm_set1_epi32(static_cast<int>(tag));
+        under = _mm_set1_epi32(static_cast<int>(mask));
+    } else {
+        wanted = _mm_set1_epi64x(static_cast<long long>(tag));
+        under = _mm_set1_epi64x(static_cast<long long>(mask));
+    }
+    const auto equal = [&](int k) { return _mm_cmpeq_epi32(_mm_and_si128(_mm_load_si128(quarter + k), under), wanted); };
+    const auto halves = static_cast<std::uint32_t>(_mm_movemask_epi8(
+        _mm_packs_epi16(_mm_packs_epi32(equal(0), equal(1)), _mm_packs_epi32(equal(2), equal(3)))));
+    if constexpr (Layout::slots == 16) return halves;
+    // 64-bit slots: both halves must match; the pairs of bits 0 1, 2 3, ... become bits 0, 2, ...
+    return halves & halves >> 1 & 0x5555U;
+#else
+    std::uint32_t found = 0;
+    for (std::uint32_t k = 0; k < Layout::slots; ++k)
+        found |= static_cast<std::uint32_t>((line[k] & mask) == tag) << (Layout::slots == 16 ? k : 2 * k);
+    return found;
+#endif
+}
+
+/// The slot that the lowest bit of `matches` names.
+template <class Layout>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t first_match(std::uint32_t found) noexcept {
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(found));
+    return Layout::slots == 16 ? bit : bit / 2;
+}
+
+/// index + 1 that stands at a place.
+template <class Layout>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t index_at(const line_table& table, std::uint64_t place) noexcept {
+    if constexpr (Layout::keyed) {
+        return table.indices[place];
+    } else {
+        using Slot = typename Layout::slot_type;
+        return static_cast<std::uint32_t>(table.slots<Layout>()[place] & static_cast<Slot>(~table.tag_mask));
+    }
+}
+
+template <class Layout>
+[[gnu::always_inline]] inline void write_slot(const line_table& table, std::uint64_t place,
+                                              typename Layout::slot_type tag, std::uint32_t index_plus_1) noexcept {
+    using Slot = typename Layout::slot_type;
+    if constexpr (Layout::keyed) {
+        table.slots<Layout>()[place] = tag;
+        table.indices[place] = index_plus_1;
+    } else {
+        table.slots<Layout>()[place] = static_cast<Slot>(tag | static_cast<Slot>(index_plus_1));
+    }
+}
+
+/// Where the search for an id ended.
+struct search_end {
+    enum class at { match, free_slot, boundary };
+    at what = at::boundary;
+    std::uint64_t place = 0;  // of the match or the free slot
+    std::uint32_t probe = 0;  // lines between it and the home line
+};
+
+/// Walks from the preferred slot to the first match or the first free slot, in the home line and those after it;
+/// never past end_line, where another part of the table may begin that is not filled yet.
+template <class Layout>
+[[nodiscard]] inline search_end walk(const line_table& table, std::uint64_t place, typename Layout::slot_type tag,
+                                     std::uint64_t end_line) noexcept {
+    using Slot = typename Layout::slot_type;
+    const auto* slots = table.slots<Layout>();
+    const auto mask = static_cast<Slot>(table.tag_mask);
+    const std::uint64_t home = place / Layout::slots;
+    const auto preferred = static_cast<std::uint32_t>(place % Layout::slots);
+    for (std::uint32_t probe = 0; probe < table.most_probes && home + probe < end_line; ++probe) {
+        const std::uint64_t first = (home + probe) * Layout::slots;
+        for (std::uint32_t k = 0; k < Layout::slots; ++k) {
+            const auto at = first + (preferred + k) % Layout::slots;
+            if (slots[at] == 0) return {search_end::at::free_slot, at, probe};
+            if ((slots[at] & mask) == tag) return {search_end::at::match, at, probe};
+        }
+        tag = static_cast<Slot>(tag + static_cast<Slot>(table.tag_step));
+    }
+    return {};
+}
+
+}  // namespace tsubu::detail

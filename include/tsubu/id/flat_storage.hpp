@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// flat_storage: the general id table, 8 bytes per particle, whatever the ids.
+/// How a line holds 16 ids in 64 bytes: detail/quotient_lines.hpp.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/executor.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/id/concepts.hpp>
+#include <tsubu/id/detail/quotient_build.hpp>
+#include <tsubu/id/detail/quotient_find.hpp>
+#include <tsubu/id/detail/quotient_plan.hpp>
+#include <tsubu/id/id_range.hpp>
+#include <tsubu/id/memory_limit.hpp>
+
+#include <algorithm>  // std::find, std::max, std::min
+#include <cstddef>    // std::size_t
+#include <cstdint>  // std::int64_t
+#include <memory>   // std::allocator
+#include <span>     // std::span
+#include <utility>  // std::exchange, std::move, std::swap
+#include <vector>   // std::vector
+
+namespace tsubu {
+
+/// The general table: open addressing in cache lines, ids told apart by what their place does not already say.
+///
+/// Models id_storage, batched_lookup, prefetchable, parallel_rebuild.
+/// find       1 cache line; no branch depends on where in the line the id is, or whether
+/// rebuild    O(N) for every pattern of ids; from 2e6 ids on, or with several threads, dealt out into parts of the table
+/// assign     O(1) amortised; erase O(1): the slot is reused by the same id, or freed at the next rebuild or growth
+/// memory     8 | 16 | 20 bytes per id (narrow | wide | keyed), and while a dealt rebuild runs 8 | 16 | 16 more
+/// growth     geometric; the answers are deterministic, on any number of threads
+/// Choose it when: ids are sparse, strided, clustered, unknown. Do not when: ids fill their range (dense_storage).
+///
+/// Strong guarantee, with one exception: a rebuild that fits the memory it has is done in place. Should eight hash
+/// multipliers in a row map these ids badly, and the memory for a larger table then be refused, the map is left empty.
+/// Source: design note in detail/quotient_lines.hpp.
+template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>
+class flat_storage {
+public:
+    using id_type = Id;
+    using allocator_type = Allocator;
+
+    flat_storage() = default;
+    explicit flat_storage(const Allocator& allocator) : memory_(allocator), stash_(allocator) {}
+    explicit flat_storage(memory_limit limit, const Allocator& allocator = {})
+        : memory_(allocator), stash_(allocator), limit_(limit) {}
+
+    flat_storage(const flat_storage& other)
+        : memory_(other.memory_),
+          stash_(other.stash_),
+          table_(other.table_),
+          lines_(other.lines_),
+          size_(other.size_),
+          used_(other.used_),
+          room_(other.room_),
+          reserved_(other.reserved_),
+          multiplier_(other.multiplier_),
+          limit_(other.limit_) {
+        stash_.reserve(other.stash_.capacity());
+        if (!memory_.empty()) detail::attach(table_, memory_.data());
+    }
+    flat_storage(flat_storage&& other) noexcept : flat_storage(other.memory_.get_allocator()) { swap(other); }
+    flat_storage& operator=(flat_storage other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~flat_storage() = default;
+
+    [[nodiscard]] index_t find(Id id) const noexcept {
+        return with_lines([&]<class Layout>(Layout) {
+            return detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(id));
+        });
+    }
+    void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
+        const auto blocks = ids.size() / detail::block_size;
+        with_lines([&]<class Layout>(Layout) {
+            if (blocks != 0)
+                detail::with_kernels([&]<class Kernels>(Kernels) {
+                    detail::find_blocks<Kernels, Layout>(table_, stash_.entries(), ids.data(), blocks, indices.data(),
+                                                         exceeds_cache());
+                });
+            for (auto k = blocks * detail::block_size; k < ids.size(); ++k)
+                indices[k] = detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(ids[k]));
+        });
+    }
+    void prefetch(Id id) const noexcept {
+        with_lines([&]<class Layout>(Layout) {
+            const auto x = static_cast<std::uint64_t>(id) - table_.base;
+            if (table_.may_hold(x)) __builtin_prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
+        });
+    }
+
+    void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links) {
+        rebuild(ids, range, links, this_thread{});
+    }
+    template <executor Executor>
+    void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links, const Executor& on) {
+        if (ids.empty()) return clear();
+        const auto base_of_keys = [&] {
+            return detail::value_beside(static_cast<std::uint64_t>(range.lowest),
+                                        static_cast<std::uint64_t>(range.highest), [&](std::uint64_t value) {
+                                            return std::find(ids.begin(), ids.end(), static_cast<Id>(value)) != ids.end();
+                                        });
+        };
+        auto plan = detail::plan_lines({.count = ids.size(),
+                                        .lowest = static_cast<std::uint64_t>(range.lowest),
+                                        .extent = range.extent(),
+                                        .greatest_index = ids.size() - 1,
+                                        .multiplier = multiplier_},
+                                       base_of_keys);
+        for (std::uint32_t attempt = 0;; ++attempt) {
+            if (attempt > 0) detail::next_attempt(plan, ++multiplier_, attempt);
+            if (try_rebuild(plan, ids, links, on)) return;
+        }
+    }
+
+    void assign(Id id, index_t index) {
+        const auto key = static_cast<std::uint64_t>(id);
+        while (!(table_.may_hold(key - table_.base) && detail::index_fits(table_, index) &&
+                 (used_ < room_ || find(id) != absent) && insert(key, index)))
+            make_room(key, index);
+    }
+    bool erase(Id id) noexcept {
+        return with_lines([&]<class Layout>(Layout) {
+            const auto x = static_cast<std::uint64_t>(id) - table_.base;
+            if (!table_.may_hold(x)) return false;
+            const auto at = table_.locate<Layout>(x);
+            const auto end = detail::walk<Layout>(table_, at.place, at.tag, table_.lines + detail::spill_lines);
+            if (end.what == detail::search_end::at::match) {
+                const bool was_here = detail::index_at<Layout>(table_, end.place) != 0;
+                detail::write_slot<Layout>(table_, end.place,
+                                           static_cast<typename Layout::slot_type>(at.tag + end.probe * table_.tag_step),
+                                           0);
+                size_ -= was_here ? 1 : 0;
+                return was_here;
+            }
+            if (end.what == detail::search_end::at::boundary)
+                for (auto& entry : stash_.entries())
+                    if (entry.place == at.place && entry.tag == at.tag && entry.index_plus_1 != 0) {
+                        entry.index_plus_1 = 0;
+                        --size_;
+                        return true;
+                    }
+            return false;
+        });
+    }
+
+    /// Takes memory for `count` ids in lines of the present kind, or narrow ones if the map is empty.
+    void reserve(std::size_t count) {
+        if (count > room_) {
+            const auto range = size_ == 0 ? id_range<std::uint64_t>{0, count} : range_of_entries();
+            grow(count, range.lowest, range.extent(), range.lowest, 0);
+        }
+        reserved_ = memory_.size();
+    }
+    void clear() noexcept {
+        if (!memory_.empty()) detail::wipe(table_, lines_);
+        stash_.clear();
+        size_ = used_ = 0;
+    }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] Allocator get_allocator() const noexcept { return memory_.get_allocator(); }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return memory_.memory_bytes() + stash_.memory_bytes(); }
+
+    /// How the ids of the last rebuild are stored.
+    [[nodiscard]] flat_lines lines() const noexcept { return lines_; }
+    /// How many hash multipliers have been given up because they mapped some ids badly.
+    [[nodiscard]] std::uint32_t discarded_multipliers() const noexcept { return multiplier_; }
+
+private:
+    using table_memory = buffer<detail::cache_line, Allocator>;
+    using spills = detail::spill_list<Allocator>;
+
+    static constexpr std::size_t dealing_threshold = 2'000'000;   // below, direct insertion is as fast on one thread
+    static constexpr std::size_t threading_threshold = 1 << 14;  // below, starting threads takes longer than inserting
+
+    template <class Call>
+    [[gnu::always_inline]] static decltype(auto) with_lines(flat_lines lines, Call&& call) {
+        if (lines == flat_lines::narrow) return call(detail::narrow_lines{});
+        if constexpr (sizeof(Id) == 8) {
+            if (lines == flat_lines::keyed) return call(detail::keyed_lines{});
+        }
+        return call(detail::wide_lines{});
+    }
+    template <class Call>
+    [[gnu::always_inline]] decltype(auto) with_lines(Call&& call) const {
+        return with_lines(lines_, std::forward<Call>(call));
+    }
+    [[nodiscard]] bool exceeds_cache() const noexcept {
+        return memory_.memory_bytes() > detail::prefetch_threshold;
+    }
+    void swap(flat_storage& other) noexcept {
+        memory_.swap(other.memory_);
+        std::swap(stash_, other.stash_);
+        std::swap(table_, other.table_);
+        std::swap(lines_, other.lines_);
+        std::swap(size_, other.size_);
+        std::swap(used_, other.used_);
+        std::swap(room_, other.room_);
+        std::swap(reserved_, other.reserved_);
+        std::swap(multiplier_, other.multiplier_);
+        std::swap(limit_, other.limit_);
+    }
+
+    /// @return false if the ids do not fit under this multiplier; the map holds nothing then.
+    template <executor Executor>
+    bool try_rebuild(const detail::line_plan& plan, std::span<const Id> ids, std::span<index_t> links,
+                     const Executor& on) {
+        const auto needed = detail::memory_lines(plan.table, plan.lines);
+        // Memory is kept while it is not far too large: 4 times is what a hole in the particle count may leave.
+        const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || memory_.size() <= reserved_);
+        if (!keep) limit_.check("flat_storage", needed * 64, ids.size(), plan.demand.lowest + plan.demand.extent, "raise the memory_limit");
+        table_memory fresh = keep ? table_memory(memory_.get_allocator()) : table_memory(needed, memory_.get_allocator());
+        spills fresh_stash(memory_.get_allocator());
+        const bool keep_stash = stash_.capacity() >= plan.stash_capacity;
+        if (!keep_stash) fresh_stash.reserve(plan.stash_capacity);
+        const bool threaded = on.concurrency() > 1 && ids.size() >= threading_threshold;
+        const auto adopt = [&]() noexcept {  // from here on nothing throws
+            if (!keep) memory_.swap(fresh);
+            if (!keep_stash) std::swap(stash_, fresh_stash);
+            lines_ = plan.lines;
+            table_ = plan.table;
+            detail::attach(table_, memory_.data());
+            room_ = plan.room;
+            stash_.clear();
+            size_ = used_ = 0;
+        };
+        std::uint64_t repeated = detail::no_fit;
+        with_lines(plan.lines, [&]<class Layout>(Layout) {
+            if (threaded || ids.size() >= dealing_threshold) {
+                detail::dealing<Layout, Allocator> parts(ids.size(), plan.table.lines, threaded ? on.concurrency() : 1,
+                                                         memory_.get_allocator());
+                adopt();
+                detail::with_kernels([&]<class Kernels>(Kernels) {
+                    const auto fill = [&](const auto& team) {
+                        return parts.template fill<Kernels>(table_, table_.overflow + detail::overflow_words(table_), stash_, ids, links,
+                                                            team);
+                    };
+                    repeated = threaded ? fill(on) : fill(this_thread{});
+                });
+            } else {
+                adopt();
+                detail::wipe(table_, lines_);
+                detail::with_kernels([&]<class Kernels>(Kernels) {
+                    repeated = detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache());
+                });
+            }
+        });
+        if (repeated == detail::no_fit) {
+            clear();
+            return false;
+        }
+        size_ = used_ = ids.size() - static_cast<std::size_t>(repeated);
+        return true;
+    }
+    /// @return false if the stash is full; nothing has changed then.
+    bool insert(std::uint64_t key, index_t index) noexcept {
+        return with_lines([&]<class Layout>(Layout) {
+            const auto at = table_.locate<Layout>(key - table_.base);
+            const auto index_plus_1 = static_cast<std::uint32_t>(index) + 1;
+            const auto former = detail::find_beyond<Layout>(table_, stash_.entries(), at.place, at.tag);
+            detail::line_filler<Layout> filler(table_, table_.lines + detail::spill_lines, nullptr);
+            if (!filler.insert(at.place, at.tag, index_plus_1) &&
+                !detail::insert_into_stash(filler, stash_, {at.tag, static_cast<std::uint32_t>(at.place), index_plus_1}))
+                return false;
+            if (former == absent) ++size_;
+            if (filler.repeated() == 0) ++used_;
+            return true;
+        });
+    }
+    /// Grows so that one more id with this key and index fits. Strong guarantee.
+    void make_room(std::uint64_t key, index_t index) {
+        const auto present = size_ == 0 ? id_range<std::uint64_t>{} : range_of_entries();
+        const auto range = present.with(key);
+        // Room below as well: ids may come in descending order.
+        const auto lowest = size_ == 0 || key != range.lowest ? range.lowest
+                            : range.extent() < range.lowest   ? range.lowest - range.extent()
+                                                              : 0;
+        grow((std::max)(size_ + 1, size_ * 2), lowest, range.highest - lowest, key, index);
+    }
+    void grow(std::size_t count, std::uint64_t lowest, std::uint64_t extent, std::uint64_t new_key, index_t index) {
+        const auto entries = all_entries();
+        std::uint64_t greatest = static_cast<std::uint64_t>(index);
+        for (const auto& entry : entries) greatest = (std::max)(greatest, std::uint64_t{entry.index_plus_1});
+        // Twice the greatest index: indices that count upwards do not lay the table out anew each time.
+        greatest = (std::min)(2 * greatest + 64, std::uint64_t{max_index_count} - 1);
+        auto plan = detail::plan_lines({.count = (std::max)(count, std::size_t{16}),
+                                        .lowest = lowest,
+                                        .extent = extent,
+                                        .greatest_index = greatest,
+                                        .multiplier = multiplier_},
+                                       [&] {
+                                           return detail::value_beside(lowest, lowest + extent, [&](std::uint64_t value) {
+                                               return find(static_cast<Id>(value)) != absent || value == new_key;
+                                           });
+                                       });
+        for (std::uint32_t attempt = 0;; ++attempt) {
+            if (attempt > 0) detail::next_attempt(plan, ++multiplier_, attempt);
+            const auto needed = detail::memory_lines(plan.table, plan.lines);
+            limit_.check("flat_storage", needed * 64, count, plan.demand.lowest + plan.demand.extent, "raise the memory_limit");
+            flat_storage larger(limit_, memory_.get_allocator());
+            larger.memory_ = table_memory(needed, memory_.get_allocator());
+            larger.stash_.reserve(plan.stash_capacity);
+            larger.lines_ = plan.lines;
+            larger.table_ = plan.table;
+            detail::attach(larger.table_, larger.memory_.data());
+            detail::wipe(larger.table_, larger.lines_);
+            larger.room_ = plan.room;
+            larger.multiplier_ = multiplier_;
+            larger.reserved_ = reserved_;
+            bool fits = true;
+            for (const auto& entry : entries)
+                fits = fits && larger.insert(entry.key, static_cast<index_t>(entry.index_plus_1) - 1);
+            if (!fits) continue;
+            swap(larger);
+            return;
+        }
+    }
+    [[nodiscard]] std::vector<detail::id_entry> all_entries() const {
+        std::vector<detail::id_entry> entries;
+        entries.reserve(size_);
+        with_lines([&]<class Layout>(Layout) {
+            detail::for_each_entry<Layout>(table_, stash_.entries(), [&](std::uint64_t key, std::uint32_t index_plus_1) {
+                entries.push_back({key, index_plus_1});
+            });
+        });
+        return entries;
+    }
+    [[nodiscard]] id_range<std::uint64_t> range_of_entries() const noexcept {
+        id_range<std::uint64_t> range;
+        with_lines([&]<class Layout>(Layout) {
+            detail::for_each_entry<Layout>(table_, stash_.entries(),
+                                           [&](std::uint64_t key, std::uint32_t) { range = range.with(key); });
+        });
+        return range;
+    }
+
+    table_memory memory_;
+    spills stash_;
+    detail::line_table table_ = detail::no_lines();
+    flat_lines lines_ = flat_lines::narrow;
+    std::size_t size_ = 0;       // ids present
+    std::size_t used_ = 0;       // slots that are not empty: present ids and erased ones
+    std::size_t room_ = 0;       // used_ may reach this before the table grows
+    std::size_t reserved_ = 0;   // cache lines that reserve() asked for: kept however few ids come
+    std::uint32_t multiplier_ = 0;  // which one of the sequence; it is remembered between rebuilds
+    [[no_unique_address]] memory_limit limit_;
+};
+static_assert(id_storage<flat_storage<>>);
+static_assert(batched_lookup<flat_storage<>>);
+static_assert(prefetchable<flat_storage<>>);
+static_assert(parallel_rebuild<flat_storage<>>);
+
+}  // namespace tsubu

@@ -44,6 +44,7 @@ struct series {
     std::unique_ptr<contender> (*make)(const workload&);
     tsubu::instruction_set most = tsubu::instruction_set::avx512;
     bool (*fits)(const workload&) = nullptr;  ///< measured only where this says so
+    bool batches_only = false;                ///< in all other operations it is the series before it
 };
 
 template <class Storage>
@@ -75,7 +76,7 @@ constexpr series series_list[] = {
 #endif
 #if defined(TSUBU_RIVAL_ABSL)
     {"absl_flat_hash_map", map_of<absl_flat_hash_map<id_t>>},
-    {"absl_prefetched", map_of<absl_prefetched<id_t>>},
+    {"absl_prefetched", map_of<absl_prefetched<id_t>>, instruction_set::avx512, nullptr, true},
 #endif
     {"oracle", table_of<oracle, std::uint32_t>},
     {"plain_array", table_of<plain_array, id_t>, instruction_set::avx512, ids_fill_their_range},
@@ -114,6 +115,7 @@ struct operation {
     pass run;
     bool per_particle;  ///< the time is divided by the particles; else by the questions
     bool in_patterns;   ///< measured for every pattern, not for the sweep of T/N alone
+    bool batch = false;
 };
 
 constexpr operation operations[] = {
@@ -122,9 +124,9 @@ constexpr operation operations[] = {
     {"update", update, true, false},
     {"find_single", find_single, false, true},
     {"find_dependent", find_dependent, false, false},
-    {"find_hit", find_batch<&workload::hit>, false, true},
-    {"find_half", find_batch<&workload::half>, false, true},
-    {"find_near", find_batch<&workload::near>, false, false},
+    {"find_hit", find_batch<&workload::hit>, false, true, true},
+    {"find_half", find_batch<&workload::half>, false, true, true},
+    {"find_near", find_batch<&workload::near>, false, false, true},
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -146,7 +148,7 @@ struct group {
                "/ratio:" + std::to_string(ratio);
     }
     // In microseconds, roughly: shares of the time that is left.
-    [[nodiscard]] double weight() const { return (sweep ? 2.0 : 1.0) * (4e5 + static_cast<double>(owned)); }
+    [[nodiscard]] double weight() const { return (sweep ? 2.0 : 1.0) * (1.5e5 + static_cast<double>(owned)); }
 };
 
 std::vector<group> plan(extent how_much) {
@@ -161,6 +163,7 @@ std::vector<group> plan(extent how_much) {
         const bool tested_sparse = p.make == block || p.make == strided || p.make == clustered;
         for (const auto owned : sizes) {
             if (quick && (!p.quick || owned != 100'000)) continue;
+            if (!full && !p.quick && owned == 1'000'000) continue;
             if (owned == 10'000 && p.make != bucket_multiples && p.make != stride_of<32771>) continue;
             if (owned == 10'000'000 && (!full || !tested_sparse)) continue;
             if (p.make != uniform) groups.push_back({&p, owned, 8, false});
@@ -190,8 +193,8 @@ double mod_prime_visits(const std::vector<id_t>& ids) {
 
 /// A series whose passes would take minutes gets a line that says so, and one timed rebuild if that takes seconds.
 bool note_if_degenerate(const series& candidate, const workload& work, const std::string& name, row_reporter& report) {
-    constexpr double too_many_visits = 200;      // a look-up of microseconds
-    constexpr double seconds_of_visits = 2e9;    // at about a nanosecond for each
+    constexpr double too_many_visits = 200;    // a look-up of microseconds
+    constexpr double seconds_of_visits = 2e9;  // at about a nanosecond for each
     if (std::strcmp(candidate.name, "chained_mod_prime") != 0) return false;
     const double visits = mod_prime_visits(work.ids);
     if (visits < too_many_visits) return false;
@@ -258,9 +261,11 @@ void run_operation(benchmark::State& state, const measured_series& subject, cons
         static_cast<double>(subject.map->memory_bytes()) / static_cast<double>(work.ids.size());
 }
 
-bool applies(const operation& op, const contender& map, const group& to) {
+bool applies(const operation& op, const measured_series& subject, const group& to) {
     if (!to.sweep && !op.in_patterns) return false;
-    return op.run != update || map.can_update();
+    if (subject.which->batches_only && !op.batch) return false;
+    if (op.run == find_batch<&workload::half> && subject.which->make == table_of<plain_array, id_t>) return false;
+    return op.run != update || subject.map->can_update();
 }
 
 void run_group(const group& which, const id_set& set, row_reporter& report) {
@@ -271,7 +276,7 @@ void run_group(const group& which, const id_set& set, row_reporter& report) {
     benchmark::ClearRegisteredBenchmarks();
     for (const auto& subject : all)
         for (const auto& op : operations)
-            if (applies(op, *subject.map, which))
+            if (applies(op, subject, which))
                 benchmark::RegisterBenchmark((name + "/" + subject.which->name + "/" + op.name).c_str(),
                                              [&](benchmark::State& state) { run_operation(state, subject, op, work); });
     benchmark::RunSpecifiedBenchmarks(&report);
@@ -288,10 +293,10 @@ struct options {
 };
 
 constexpr const char* usage =
-    "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [Google Benchmark's flags]\n"
+    "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
     "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5: about 3 minutes\n"
-    "  (neither)   all T/N, all patterns at 1e5 and 1e6: about 15 minutes\n"
-    "  --full      N = 1e7 as well: about an hour and 12 GB of memory\n"
+    "  (neither)   all T/N, all patterns at 1e5, the main ones at 1e6: about 15 minutes\n"
+    "  --full      N = 1e7 as well: more than an hour, 12 GB of memory\n"
     "  --ids FILE  also the ids of a LAMMPS data or dump file\n"
     "  --only TEXT only groups whose name contains it, such as uniform/N:100000/ratio:8\n"
     "TSUBU_INSTRUCTION_SET=portable|avx2|avx512 limits what the maps may use.\n";
@@ -323,11 +328,12 @@ bool parse(std::vector<char*>& arguments, options& chosen) {
 
 /// Our defaults for Google Benchmark come first, so that the user's flags override them.
 void initialize_benchmark(const std::vector<char*>& user, extent how_much) {
+    constexpr const char* repetitions[] = {"5", "5", "7"};
+    constexpr const char* seconds[] = {"0.005", "0.02", "0.03"};
+    const auto k = static_cast<std::size_t>(how_much);
     std::vector<std::string> words = {user.front(), "--benchmark_enable_random_interleaving=true",
-                                      how_much == extent::quick ? "--benchmark_repetitions=5"
-                                                                : "--benchmark_repetitions=7",
-                                      how_much == extent::quick ? "--benchmark_min_time=0.01"
-                                                                : "--benchmark_min_time=0.03"};
+                                      std::string("--benchmark_repetitions=") + repetitions[k],
+                                      std::string("--benchmark_min_time=") + seconds[k]};
     words.insert(words.end(), user.begin() + 1, user.end());
     std::vector<char*> pointers;
     for (auto& word : words) pointers.push_back(word.data());
@@ -366,7 +372,8 @@ int run(const options& chosen) {
         group of_file{nullptr, 0, 0, true};
         from_file = from_lammps(chosen.ids_file, of_file.owned);
         const auto [lowest, highest] = std::minmax_element(from_file.ids.begin(), from_file.ids.end());
-        of_file.ratio = (static_cast<std::uint64_t>(*highest - *lowest) + 1) / from_file.ids.size();
+        const auto count = from_file.ids.size();
+        of_file.ratio = (static_cast<std::uint64_t>(*highest - *lowest) + count / 2) / count;
         groups.push_back(of_file);
     }
     double all = 0;

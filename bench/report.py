@@ -109,6 +109,7 @@ class Results:
             if operation == ["rebuild"]:
                 self.degenerate[cell] = (row["degenerate"], row.get("nanoseconds"))
         elif (*cell, operation[0]) not in already:  # of two runs of one cell the first counts
+            SERIES.setdefault(series, (series, "#c06b8f", "h", "-", 1.6))  # a policy of the user's own
             self.times[(*cell, operation[0])].append(1e9 / row["items_per_second"])
             self.memory[cell] = row["bytes_per_particle"]
 
@@ -119,12 +120,13 @@ class Results:
 
     def best(self, candidates, pattern, count, ratio, operation):
         """(median, series) of the fastest candidate, or None."""
-        found = [(value, s) for s in candidates if (value := self.median(pattern, count, ratio, s, operation))]
+        found = [(value, s) for s in candidates if s != "absl_prefetched" or operation in BATCHES
+                 if (value := self.median(pattern, count, ratio, s, operation))]
         return min(found) if found else None
 
     def points(self, operation=None):
-        """All (pattern, N, ratio), in order."""
-        return sorted({key[:3] for key in self.times if operation in (None, key[4])})
+        """All (pattern, N, ratio), in the order of measurement."""
+        return list(dict.fromkeys(key[:3] for key in self.times if operation in (None, key[4])))
 
     def counts(self, pattern="uniform"):
         return sorted({n for p, n, _ in self.points() if p == pattern})
@@ -187,7 +189,7 @@ class Claim:
     def cells(self):
         """(claim, target, median, worst, where, portable worst, mark)"""
         if not self.values:
-            return self.text, self.target_text(), "", "not measured", "", "", "–"
+            return self.text, self.target_text(), "", "", "", "", "not measured"
         worst = self.worst()
         portables = [v[1] for v in self.values if v[1]]
         portable = (min if self.at_least else max)(portables) if portables else None
@@ -275,9 +277,9 @@ def claims_against_limit(results):
     for operation, count, target in targets:
         point = ("uniform", count, 8)
         oracle = results.median(*point, "oracle", operation)
-        claims.append(Claim(f"{OPERATIONS[operation][0]}, {power(count)}: default / oracle", target, at_least=False).add(
-            quotient(results.median(*point, DEFAULT, operation), oracle), place_name(point),
-            quotient(results.median(*point, DEFAULT_PORTABLE, operation), oracle)))
+        claim = Claim(f"{OPERATIONS[operation][0]}, {power(count)}: default / oracle", target, at_least=False)
+        claims.append(claim.add(quotient(results.median(*point, DEFAULT, operation), oracle), place_name(point),
+                                quotient(results.median(*point, DEFAULT_PORTABLE, operation), oracle)))
     for operation in ("find_hit", "rebuild"):
         claim = Claim(f"{OPERATIONS[operation][0]}, T/N = 1: dense / plain array", 1.1, at_least=False)
         for count in results.counts():
@@ -392,9 +394,14 @@ def choice_sentence(results, count, what, operation):
             runs.append([chosen[0], ratio, ratio])
     parts = []
     for k, (series, first, last) in enumerate(runs):
-        span = "everywhere" if len(runs) == 1 else f"up to T/N = {power(last)}" if k == 0 else \
-            f"from {power(first)} on" if k == len(runs) - 1 else \
-            f"at {power(first)}" if first == last else f"from {power(first)} to {power(last)}"
+        if len(runs) == 1:
+            span = "everywhere"
+        elif k == 0:
+            span = f"at T/N = {power(last)}" if first == last else f"up to T/N = {power(last)}"
+        elif k == len(runs) - 1:
+            span = f"from {power(first)} on"
+        else:
+            span = f"at {power(first)}" if first == last else f"from {power(first)} to {power(last)}"
         parts.append(f"{label(series)} {span}")
     return f"{power(count)} particles, {what}: {', '.join(parts)}."
 
@@ -413,20 +420,24 @@ def crossing(x0, x1, a0, a1, b0, b1):
 
 
 def crossings(results, count, operation):
-    """[(T/N, best before, best after)] where the best of our own policies changes."""
+    """[(T/N, better before, better after)] where the best of our own policies changes, and where dense and flat meet.
+
+    A policy that is refused at the next T/N is lost somewhere between: a limit, no crossing.
+    """
     found = []
     ratios = results.ratios(count)
     for x0, x1 in zip(ratios, ratios[1:]):
         v0, v1 = (own_values(results, ("uniform", count, x), operation) for x in (x0, x1))
-        if not v0 or not v1:
-            continue
-        before, after = min(v0, key=v0.get), min(v1, key=v1.get)
-        if before == after or after not in v0:
-            continue
-        # A policy that is refused at x1 is lost somewhere between: no crossing, a limit.
-        x = crossing(x0, x1, v0[before], v1[before], v0[after], v1[after]) if before in v1 else None
-        if x:
-            found.append((x, before, after))
+        pairs = [("dense", "flat"), ("flat", "dense")]
+        if v0 and v1:
+            pairs.insert(0, (min(v0, key=v0.get), min(v1, key=v1.get)))
+        for before, after in dict.fromkeys(pairs):
+            if before == after or not all(s in v for s in (before, after) for v in (v0, v1)):
+                continue
+            if v0[before] < v0[after]:
+                x = crossing(x0, x1, v0[before], v1[before], v0[after], v1[after])
+                if x:
+                    found.append((x, before, after))
     return found
 
 
@@ -455,7 +466,8 @@ def svg_of(figure, pyplot, title):
     pyplot.close(figure)
     text = out.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
-    text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="width:100%;max-width:\2pt"', text, count=1)
+    text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="width:100%;max-width:\2pt"', text,
+                  count=1)
     text = text.replace("<svg", f'<svg role="img" aria-label="{html.escape(title, quote=True)}"', 1)
     return text.replace(INK, "currentColor").replace(GRID, "var(--rule)")
 
@@ -486,21 +498,22 @@ def sweep_value(results, count, ratio, series, operation):
 
 
 def sweep_chart(results, count, operation, title, unit, pyplot):
-    figure, axes = pyplot.subplots(figsize=(5.6, 4.1))
+    figure, axes = pyplot.subplots(figsize=(5.6, 4.2))
     ratios = results.ratios(count)
     for series in drawn_series(results, count, operation):
         points = [(r, v) for r in ratios if (v := sweep_value(results, count, r, series, operation))]
         axes.plot(*zip(*points), **style_of(series), zorder=4 if series.startswith(DEFAULT) else 3)
     axes.set(xscale="log", yscale="log", xlabel="T/N: range of the ids per id", ylabel=unit)
-    axes.set_title(title, pad=24, loc="left")
     axes.set_xticks(ratios, [power(r) for r in ratios])
     axes.minorticks_off()
     plain_ticks(axes.yaxis)
     axes.grid(True)
-    for k, (x, before, after) in enumerate(crossings(results, count, None if operation == "memory" else operation)):
+    meetings = sorted(crossings(results, count, None if operation == "memory" else operation))
+    for k, (x, before, after) in enumerate(meetings):
         axes.axvline(x, color=INK, linewidth=.8, linestyle=(0, (2, 3)))
-        axes.annotate(f"{label(before)} → {label(after)}: {figure_of(x)}", (x, 1.005 + .045 * (k % 2)), ha="left",
-                      xycoords=("data", "axes fraction"), fontsize=7.5)
+        axes.annotate(f"{label(before)} → {label(after)}: {figure_of(x)}", (x, 1.01 + .045 * (len(meetings) - 1 - k)),
+                      xycoords=("data", "axes fraction"), fontsize=7.5, ha="left")
+    axes.set_title(title, pad=6 + 12 * len(meetings), loc="left")
     axes.legend(loc="center left", bbox_to_anchor=(1.01, .5), frameon=False, fontsize=8, handlelength=3)
     return svg_of(figure, pyplot, f"{title}, {power(count)} particles")
 
@@ -515,13 +528,12 @@ def plain_ticks(axis):
 
 
 def pattern_points(results):
-    """{N: [patterns]} at T/N = 8, uniform first."""
+    """{N: [patterns]} at T/N = 8, in the order of measurement."""
     found = defaultdict(list)
     for pattern, count, ratio in results.points("find_hit"):
         if ratio == 8 and pattern != "file":
             found[count].append(pattern)
-    natural = lambda p: [int(w) if w.isdigit() else w for w in re.split(r"(\d+)", p)]
-    return {n: sorted(ps, key=lambda p: (p != "uniform", natural(p))) for n, ps in sorted(found.items()) if len(ps) > 1}
+    return {n: patterns for n, patterns in sorted(found.items()) if len(patterns) > 1}
 
 
 def pattern_chart(results, count, patterns, pyplot):
@@ -556,43 +568,49 @@ def pattern_chart(results, count, patterns, pyplot):
         axes.grid(True, axis="both")
     pair[0].set_yticks(list(rows), patterns)
     pair[0].set_ylim(len(patterns) - .4, -.6)
-    figure.subplots_adjust(wspace=.06)
+    figure.subplots_adjust(wspace=.2)
     figure.legend(handles.values(), [h.get_label() for h in handles.values()], loc="upper center", ncol=4,
-                  frameon=False, fontsize=8, bbox_to_anchor=(.5, .02 + .25 / figure.get_figheight()))
+                  frameon=False, fontsize=8, bbox_to_anchor=(.5, .11 - .55 / figure.get_figheight()))
     return svg_of(figure, pyplot, f"Patterns of ids, {power(count)} particles")
 
 
 def mark_degenerate(axes, results, count, patterns):
-    """An arrow at the right edge, where the notes' scheme is out of any scale."""
+    """An arrow beyond the right edge, where the notes' scheme is out of any scale."""
     for k, pattern in enumerate(patterns):
         if (pattern, count, 8, NOTES) in results.degenerate:
-            visits = results.degenerate[(pattern, count, 8, NOTES)][0]
-            axes.annotate(f"notes' scheme: {visits:,.0f} nodes ▶".replace(",", " "), (1, k), ha="right", va="center",
-                          xycoords=("axes fraction", "data"), fontsize=8, color=SERIES[NOTES][1], weight="bold")
+            visits = f"{results.degenerate[(pattern, count, 8, NOTES)][0]:,.0f}".replace(",", "\u202f")
+            axes.annotate(f"▶ notes' scheme:\n   {visits} nodes", (1.005, k), ha="left", va="center", fontsize=7.5,
+                          xycoords=("axes fraction", "data"), color=SERIES[NOTES][1], annotation_clip=False)
 
 
 # ---------------------------------------------------------------------------------------------------------------
 # The page
 
 STYLE = """
-:root { color-scheme: light dark; --ink: #1c1f23; --paper: #ffffff; --rule: #c9ced4; --soft: #f3f5f7; --good: #1d7a3c; --bad: #b3261e; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e4e7ea; --paper: #15181b; --rule: #454c54; --soft: #1f2428; --good: #6fce8d; --bad: #ff8a80; } }
-body { color: var(--ink); background: var(--paper); font: 15px/1.5 system-ui, sans-serif; max-width: 1240px; margin: 2rem auto; padding: 0 1.2rem; }
+:root { color-scheme: light dark; --ink: #1c1f23; --paper: #ffffff; --rule: #c9ced4; --soft: #f3f5f7;
+        --good: #1d7a3c; --bad: #b3261e; }
+@media (prefers-color-scheme: dark) {
+    :root { --ink: #e4e7ea; --paper: #15181b; --rule: #454c54; --soft: #1f2428;
+        --good: #6fce8d; --bad: #ff8a80; } }
+body { color: var(--ink); background: var(--paper); font: 15px/1.5 system-ui, sans-serif; max-width: 1240px;
+       margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.6rem; } h2 { margin-top: 2.6rem; border-bottom: 1px solid var(--rule); padding-bottom: .2rem; }
 p, li { max-width: 78ch; } nav a { margin-right: 1em; } a { color: inherit; }
-.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(560px, 100%), 1fr)); gap: 1.4rem 2rem; align-items: start; }
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(560px, 100%), 1fr)); gap: 1.4rem 2rem;
+          align-items: start; }
 figure { margin: 0; min-width: 0; } svg { height: auto; display: block; }
 .scroll { overflow-x: auto; } details { margin: .3rem 0 0; } summary { cursor: pointer; font-size: 13px; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; margin: .5rem 0; }
 th, td { padding: .2rem .6rem; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; }
 thead th { background: var(--soft); } td small { opacity: .75; white-space: nowrap; } td.figure { text-align: right; }
-.holds { color: var(--good); font-weight: 600; white-space: nowrap; } .fails { color: var(--bad); font-weight: 600; white-space: nowrap; }
+.holds { color: var(--good); font-weight: 600; white-space: nowrap; }
+.fails { color: var(--bad); font-weight: 600; white-space: nowrap; }
 """
 
 
-def table(head, rows, escape=True):
-    keep = html.escape if escape else str
-    cells = lambda row: "".join(c if c.startswith("<td") else f"<td>{keep(c)}</td>" for c in row)
+def table(head, rows):
+    """A cell that is an element already stays; text is escaped."""
+    cells = lambda row: "".join(c if c.startswith("<td") else f"<td>{html.escape(c)}</td>" for c in row)
     return ('<div class="scroll"><table><thead><tr>' + "".join(f"<th>{html.escape(h)}</th>" for h in head) +
             "</tr></thead><tbody>" + "".join(f"<tr>{cells(row)}</tr>" for row in rows) + "</tbody></table></div>")
 
@@ -626,7 +644,8 @@ def sweep_table(results, count, operation):
     rows = []
     for series in SERIES:
         if series in drawn_series(results, count, operation) or series in refusing:
-            rows.append([label(series)] + [spread_cell(results, ("uniform", count, r), series, operation) for r in ratios])
+            rows.append([label(series)] +
+                        [spread_cell(results, ("uniform", count, r), series, operation) for r in ratios])
     return table(["T/N"] + [power(r) for r in ratios], rows)
 
 
@@ -690,8 +709,9 @@ def choice_section(results):
     for count in results.counts():
         rows = [[power(r)] + [choice_cell(results, ("uniform", count, r), o) for o in CHOICES.values()]
                 for r in results.ratios(count)]
-        parts.append(f"<h3>{power(count)} particles</h3>" + table(["T/N", *CHOICES], rows) + "<ul>" + "".join(
-            f"<li>{html.escape(choice_sentence(results, count, what, o))}</li>" for what, o in CHOICES.items()) + "</ul>")
+        sentences = [choice_sentence(results, count, what, o) for what, o in CHOICES.items()]
+        parts.append(f"<h3>{power(count)} particles</h3>" + table(["T/N", *CHOICES], rows) + "<ul>" +
+                     "".join(f"<li>{html.escape(s)}</li>" for s in sentences) + "</ul>")
     return "".join(parts)
 
 
@@ -709,7 +729,7 @@ def claim_section(results):
 
 
 def context_section(results):
-    keys = [k for k in dict.fromkeys(k for c in results.contexts for k in c) if any(c.get(k) for c in results.contexts)]
+    keys = [k for k in dict.fromkeys(k for c in results.contexts for k in c) if k != "file"]
     rows = [[k.replace("_", " ")] + [str(c.get(k, "")) for c in results.contexts] for k in keys]
     repetitions = sorted({len(t) for t in results.times.values()})
     rows.append(["repetitions"] + [", ".join(map(str, repetitions))] * len(results.contexts))
@@ -766,7 +786,8 @@ def markdown(results):
         lines.append(markdown_row(["bytes per particle", power(count), *(figure_of(v) if v else "" for v in held), ""]))
     lines += ["", markdown_row([h or "holds" for h in CLAIM_HEAD]), "|" + "---|" * len(CLAIM_HEAD)]
     lines += [markdown_row(claim.cells()) for claim in all_claims(results)]
-    lines += [""] + [f"- {choice_sentence(results, n, what, o)}" for n in results.counts() for what, o in CHOICES.items()]
+    lines += [""] + [f"- {choice_sentence(results, n, what, o)}"
+                     for n in results.counts() for what, o in CHOICES.items()]
     return "\n".join(lines) + "\n"
 
 

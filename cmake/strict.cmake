@@ -6,9 +6,12 @@ add_library(tsubu_strict INTERFACE)
 target_compile_options(tsubu_strict INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wsign-conversion -Werror)
 if(TSUBU_SANITIZE)
-    # -O1 for speed; frame pointers for traces; the assertions see out-of-range operator[] of vector and span.
+    # Without optimisation: g++ compiles the instrumented code 4 times faster than with -O1, and the tests spend less
+    # than that. Frame pointers for traces; the assertions see out-of-range operator[] of vector and span.
     target_compile_options(tsubu_strict INTERFACE -fsanitize=${TSUBU_SANITIZE} -fno-sanitize-recover=all
-        -fno-omit-frame-pointer -O1)
+        -fno-omit-frame-pointer)
     target_compile_definitions(tsubu_strict INTERFACE _GLIBCXX_ASSERTIONS)
+    # The sanitizers' own code makes g++ see uninitialised values in <regex> and the like; release builds still look.
+    target_compile_options(tsubu_strict INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(tsubu_strict INTERFACE -fsanitize=${TSUBU_SANITIZE})
 endif()

@@ -72,7 +72,9 @@ namespace bench {
         const double zone = random.unit();  // 60 % core, 30 % wall, 10 % corner
         double age = newest;
         while (age >= newest)
-            age = zone < .6 ? exponential(random, core) : zone < .9 ? exponential(random, wall) : random.unit() * newest;
+            age = zone < .6   ? exponential(random, core)
+                  : zone < .9 ? exponential(random, wall)
+                              : random.unit() * newest;
         return static_cast<id_t>(newest - age);
     });
     set.elsewhere = gaps_between(set.ids, count, seed + 2);

@@ -10,8 +10,8 @@
 namespace bench {
 
 template <tsubu::particle_id Id>
-using boost_flat_map = map_storage<
-    boost::unordered_flat_map<Id, tsubu::index_t, boost::hash<Id>, std::equal_to<Id>, counted_entries<Id>>>;
+using boost_flat_map =
+    map_storage<boost::unordered_flat_map<Id, tsubu::index_t, boost::hash<Id>, std::equal_to<Id>, counted_entries<Id>>>;
 static_assert(tsubu::id_storage<boost_flat_map<std::int64_t>>);
 
 }  // namespace bench

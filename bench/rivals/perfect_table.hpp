@@ -44,9 +44,7 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return entries_.memory_bytes(); }
 
 private:
-    [[nodiscard]] std::size_t position(Place place) const noexcept {
-        return static_cast<std::size_t>(place - origin_);
-    }
+    [[nodiscard]] std::size_t position(Place place) const noexcept { return static_cast<std::size_t>(place - origin_); }
 
     tsubu::buffer<Entry> entries_;
     Place origin_;

@@ -54,8 +54,8 @@ public:
 
 /// No table may take more than an eighth of the memory of the machine, whatever the library would allow.
 [[nodiscard]] inline tsubu::memory_limit memory_limit_here(std::size_t particles) {
-    const auto physical = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+    const auto physical =
+        static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
     return tsubu::memory_limit((std::min)(tsubu::memory_limit{}.bytes(particles), physical / 8));
 }
 

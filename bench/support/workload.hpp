@@ -23,14 +23,14 @@ struct question_stream {
 };
 
 struct workload {
-    std::vector<id_t> ids;     ///< owned, then ghosts: 15 % new ids and 5 % images, mixed
-    std::vector<id_t> after;   ///< the same with 1 % of the entries changed
+    std::vector<id_t> ids;              ///< owned, then ghosts: 15 % new ids and 5 % images, mixed
+    std::vector<id_t> after;            ///< the same with 1 % of the entries changed
     std::vector<std::uint32_t> places;  ///< of ids[i] in the oracle's table, a random permutation
-    std::size_t different;     ///< number of different ids
-    id_t lowest;               ///< id
-    bool fills_range;          ///< every id from the lowest to the highest is here
-    question_stream hit;   ///< every one on the rank, in random order
-    question_stream half;  ///< half of them on another rank
+    std::size_t different;              ///< number of different ids
+    id_t lowest;                        ///< of the ids
+    bool fills_range;                   ///< every id from the lowest to the highest is here
+    question_stream hit;                ///< every one on the rank, in random order
+    question_stream half;               ///< half of them on another rank
     question_stream near;  ///< ascending, but for a jitter of 16 places: partners of particles sorted by id
 };
 

@@ -181,7 +181,7 @@ struct erase_breaks_the_chain : sound {
     static constexpr const char* breaks = "law 5";
     bool erase(id_t id) noexcept {
         const bool was_there = sound::erase(id);
-        if (was_there) sound::erase(id + 1);
+        if (was_there) sound::erase(id ^ 1);
         return was_there;
     }
 };
@@ -324,13 +324,13 @@ struct parallel_by_parts : sound {
     }
 };
 
-using twins = std::tuple<highest_index_wins, stale_after_rebuild, full_at_capacity, refuses_all, unique_links_unwritten,
-                         links_point_downward, links_read_before, links_past_the_end, finds_minus_one,
-                         compares_low_half, assign_keeps_old, index_cut_off, assign_evicts, erase_lies,
-                         erase_does_nothing, erase_breaks_the_chain, clear_forgets_nothing, size_counts_copies,
-                         denies_its_memory, reserve_loses, clears_before_refusing, links_before_refusing, copy_shares,
-                         dead_once_moved, batch_differs_at_odd, batch_leaves_the_rest, prefetch_reorders,
-                         parallel_by_parts>;
+using twins =
+    std::tuple<highest_index_wins, stale_after_rebuild, full_at_capacity, refuses_all, unique_links_unwritten,
+               links_point_downward, links_read_before, links_past_the_end, finds_minus_one, compares_low_half,
+               assign_keeps_old, index_cut_off, assign_evicts, erase_lies, erase_does_nothing, erase_breaks_the_chain,
+               clear_forgets_nothing, size_counts_copies, denies_its_memory, reserve_loses, clears_before_refusing,
+               links_before_refusing, copy_shares, dead_once_moved, batch_differs_at_odd, batch_leaves_the_rest,
+               prefetch_reorders, parallel_by_parts>;
 
 // --- law 8, where memory ends ---------------------------------------------------------------------------------------
 

@@ -60,7 +60,8 @@ public:
             for (std::size_t k = 0; k < fresh.size(); ++k)
                 links[static_cast<std::size_t>(fresh[k].index)] =
                     k + 1 < fresh.size() && fresh[k + 1].id == fresh[k].id ? fresh[k + 1].index : absent;
-        fresh.erase(std::unique(fresh.begin(), fresh.end(), [](const entry& a, const entry& b) { return a.id == b.id; }),
+        fresh.erase(std::unique(fresh.begin(), fresh.end(),
+                                [](const entry& a, const entry& b) { return a.id == b.id; }),
                     fresh.end());
         entries_.swap(fresh);
     }

@@ -57,8 +57,8 @@ Storage limited() {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("10 000 random rebuilds agree with a sorted array", "[id][conformance][T9][I1][I2][I5][A1][A13]",
-                        wide) {
+TEMPLATE_LIST_TEST_CASE("10 000 random rebuilds agree with a sorted array",
+                        "[id][conformance][T9][I1][I2][I5][A1][A13]", wide) {
     INFO("seed " << seed);
     testing::check_id_storage(seed, 10'000, require_law, limited<TestType>());
     SUCCEED();

@@ -37,13 +37,13 @@ namespace tsubu {
 ///     tsubu::id_map<tsubu::bitmap_storage<>> where;
 ///
 /// Concept:       id_storage, batched_lookup (POPCNT), prefetchable.
-/// Cost:          find a count of bits and two dependent loads; rebuild O(N + T / 64); erase O(1); assign O(1) if the id
-///                is there, else amortised O(64 + T / N), and O(T) when it lies outside the range and the bitmap grows.
+/// Cost:          find a count of bits and two dependent loads; rebuild O(N + T / 64); erase O(1); assign O(1) if the
+///                id is there, else amortised O(64 + T / N), and O(T / 64) when it lies outside the range.
 /// Bytes per id:  4 + .19 T / N after a rebuild, T = highest - lowest; up to 4 more after assigns.
 /// Growth:        bitmap and pool at least double, within the memory limit; a rebuild that needs less than a quarter
 ///                gives memory back.
 /// Deterministic: yes.
-/// Choose it when memory is tight and T / N <= 16; up to some 2e5 ids its rebuild is the fastest.
+/// Choose it when memory is tight and T / N <= 16.
 /// Do not when    T / N is above 64, or single look-ups dominate and there is room for dense_storage.
 /// Source:        A1, A4; rank on a bitmap: Jacobson 1989, doi:10.1109/SFCS.1989.63533.
 template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>

@@ -67,7 +67,8 @@ concept id_storage_rebuild =
 ///  6. clear() forgets all; size() is the number of ids present; memory_bytes() what the tables hold;
 ///  7. reserve(n) changes no answer;
 ///  8. rebuild, assign and reserve have the strong guarantee: if they throw, every answer is the old one and no link
-///     has been written; assign to an id that is present takes no memory if index < size of the last rebuild;
+///     has been written; assign to an id that is present takes no memory if index < size of the last rebuild, or no
+///     more than an index that was assigned since;
 ///  9. a copy is independent of its source; a moved-from storage can be assigned to and destroyed.
 template <class Storage>
 concept id_storage = std::semiregular<Storage> && id_storage_lookup<Storage> && id_storage_update<Storage> &&

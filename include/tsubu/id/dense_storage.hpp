@@ -266,7 +266,7 @@ private:
     }
     // Calls visit(begin, end) in entries for each run of touched blocks within [first, last).
     template <class Visit>
-    void for_touched_runs(std::size_t first, std::size_t last, const Visit& visit) const noexcept {
+    void for_touched_runs(std::size_t first, std::size_t last, const Visit& visit) const {
         for (std::size_t block = first; block < last; ++block) {
             if (touched_[block] == 0) continue;
             const auto begin = block;
@@ -281,8 +281,8 @@ private:
         if (last > first) std::memset(touched_.data() + first, 0, last - first);
     }
 
-    // From 16 entries per id on, blocks may be left out; below, random ids reach all of them, and marking each one
-    // by itself costs a tenth of the rebuild.
+    // From 16 entries per id on, blocks may be left out; below, random ids reach all of them, and one fill
+    // marks them without a store per id.
     [[nodiscard]] bool marks_singly(std::size_t count) const noexcept { return table_.size() / 16 > count; }
 
     std::size_t insert_reversed(std::span<const Id> ids, std::span<index_t> links) noexcept {

@@ -89,7 +89,7 @@ public:
     void prefetch(Id id) const noexcept {
         with_lines([&]<class Layout>(Layout) {
             const auto x = static_cast<std::uint64_t>(id) - table_.base;
-            if (table_.may_hold(x)) __builtin_prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
+            if (table_.may_hold<Layout>(x)) __builtin_prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
         });
     }
 
@@ -119,14 +119,14 @@ public:
 
     void assign(Id id, index_t index) {
         const auto key = static_cast<std::uint64_t>(id);
-        while (!(table_.may_hold(key - table_.base) && detail::index_fits(table_, index) &&
+        while (!(may_hold(key) && detail::index_fits(table_, index) &&
                  (used_ < room_ || find(id) != absent) && insert(key, index)))
             make_room(key, index);
     }
     bool erase(Id id) noexcept {
         return with_lines([&]<class Layout>(Layout) {
             const auto x = static_cast<std::uint64_t>(id) - table_.base;
-            if (!table_.may_hold(x)) return false;
+            if (!table_.may_hold<Layout>(x)) return false;
             const auto at = table_.locate<Layout>(x);
             const auto end = detail::walk<Layout>(table_, at.place, at.tag, table_.lines + detail::spill_lines);
             if (end.what == detail::search_end::at::match) {
@@ -188,6 +188,9 @@ private:
     template <class Call>
     [[gnu::always_inline]] decltype(auto) with_lines(Call&& call) const {
         return with_lines(lines_, std::forward<Call>(call));
+    }
+    [[nodiscard]] bool may_hold(std::uint64_t key) const noexcept {
+        return with_lines([&]<class Layout>(Layout) { return table_.may_hold<Layout>(key - table_.base); });
     }
     [[nodiscard]] bool exceeds_cache() const noexcept {
         return memory_.memory_bytes() > detail::prefetch_threshold;

@@ -8,6 +8,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/adaptive_storage.hpp>
 #include <tsubu/id/concepts.hpp>
+#include <tsubu/id/detail/range_kernels.hpp>
 #include <tsubu/id/id_range.hpp>
 #include <tsubu/id/same_id_links.hpp>
 
@@ -180,7 +181,7 @@ private:
     template <executor Executor>
     void rebuild_storage(std::span<const id_type> ids, std::span<index_t> links, const Executor& on) {
         check_count("id_map::rebuild", ids.size());
-        const auto range = range_of(ids);
+        const auto range = detail::vector_range_of(ids);
         if (!range.empty() && detail::is_negative(range.lowest)) refuse_negative("id_map::rebuild", ids);
         if constexpr (parallel_rebuild<Storage>) {
             storage_.rebuild(ids, range, links, on);
@@ -188,8 +189,12 @@ private:
             storage_.rebuild(ids, range, links);
         }
     }
-    void unlink(id_type id, index_t index, std::span<index_t> links) noexcept;
-    void link(id_type id, index_t index, std::span<index_t> links);
+    // Does index `at` hold this id?
+    [[nodiscard]] static bool is_copy(std::span<const id_type> ids, id_type id, index_t at) noexcept {
+        return static_cast<std::size_t>(at) < ids.size() && ids[static_cast<std::size_t>(at)] == id;
+    }
+    void unlink(id_type id, index_t index, std::span<index_t> links);
+    void link(std::span<const id_type> after, index_t index, std::span<index_t> links);
 
     Storage storage_{};
 };
@@ -219,28 +224,41 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
             refuse_negative("id_map::update", after);
 
     same.links_.resize(longer);
-    const auto links = std::span(same.links_);
     try {
+        // All that may take memory comes first, and erasing undoes it: no other index is written yet.
         for (const auto i : changed)
-            if (const auto k = static_cast<std::size_t>(i); k < before.size()) unlink(before[k], i, links);
-        for (const auto i : changed)
-            if (const auto k = static_cast<std::size_t>(i); k < after.size()) link(after[k], i, links);
+            if (const auto k = static_cast<std::size_t>(i); k < after.size() && !contains(after[k]))
+                storage_.assign(after[k], i);
+        if (!before.empty()) {  // room for the highest index, by writing it once
+            const auto index = find(before[0]);
+            storage_.assign(before[0], static_cast<index_t>(longer - 1));
+            storage_.assign(before[0], index);
+        }
     } catch (...) {
-        rebuild(before, same);  // the table held these ids a moment ago: no memory is needed
+        for (const auto i : changed)  // none of the former ids has an index that changed to its own id
+            if (const auto k = static_cast<std::size_t>(i); k < after.size() && find(after[k]) == i)
+                storage_.erase(after[k]);
+        same.links_.resize(before.size());
         throw;
     }
+    const auto links = std::span(same.links_);
+    for (const auto i : changed)
+        if (const auto k = static_cast<std::size_t>(i); k < before.size()) unlink(before[k], i, links);
+    for (const auto i : changed)
+        if (const auto k = static_cast<std::size_t>(i); k < after.size()) link(after, i, links);
+    for (const auto i : changed)
+        if (const auto k = static_cast<std::size_t>(i); k < before.size())
+            if (const auto at = find(before[k]); at != absent && !is_copy(after, before[k], at)) erase(before[k]);
     same.links_.resize(after.size());
 }
 
+// An id whose last copy goes stays in the table with a stale index: it may come back, and that must take no memory.
 template <id_storage Storage>
-void id_map<Storage>::unlink(id_type id, index_t index, std::span<index_t> links) noexcept {
+void id_map<Storage>::unlink(id_type id, index_t index, std::span<index_t> links) {
     const auto next = links[static_cast<std::size_t>(index)];
     auto at = storage_.find(id);
     if (at == index) {
-        if (next == absent)
-            storage_.erase(id);
-        else
-            storage_.assign(id, next);
+        if (next != absent) storage_.assign(id, next);
         return;
     }
     while (at != absent && at < index) {  // at < index: a stale link can end the walk, never prolong it
@@ -254,12 +272,18 @@ void id_map<Storage>::unlink(id_type id, index_t index, std::span<index_t> links
 }
 
 template <id_storage Storage>
-void id_map<Storage>::link(id_type id, index_t index, std::span<index_t> links) {
+void id_map<Storage>::link(std::span<const id_type> after, index_t index, std::span<index_t> links) {
+    const auto id = after[static_cast<std::size_t>(index)];
     auto& own = links[static_cast<std::size_t>(index)];
     auto at = storage_.find(id);
-    if (at == absent || at > index) {
-        storage_.assign(id, index);
+    if (at == index || !is_copy(after, id, at)) {  // the first copy of an id that was inserted, or had lost all
+        own = absent;
+        if (at != index) storage_.assign(id, index);
+        return;
+    }
+    if (at > index) {
         own = at;
+        storage_.assign(id, index);
         return;
     }
     while (links[static_cast<std::size_t>(at)] != absent && links[static_cast<std::size_t>(at)] < index)

@@ -36,10 +36,10 @@ enum class id_pattern {
 inline constexpr std::size_t id_pattern_count = static_cast<std::size_t>(id_pattern::extremes) + 1;
 
 [[nodiscard]] constexpr const char* name(id_pattern pattern) noexcept {
-    constexpr const char* names[id_pattern_count] = {
-        "lattice",      "equal",        "repeated",    "blocks",        "sparse",       "stride_1009",
-        "stride_32771", "stride_65536", "stride_2_32", "stride_golden", "bit_reversed", "rank_high",
-        "rank_low",     "billions",     "full_width",  "extremes"};
+    constexpr const char* names[id_pattern_count] = {"lattice",     "equal",         "repeated",     "blocks",
+                                                     "sparse",      "stride_1009",   "stride_32771", "stride_65536",
+                                                     "stride_2_32", "stride_golden", "bit_reversed", "rank_high",
+                                                     "rank_low",    "billions",      "full_width",   "extremes"};
     return names[static_cast<std::size_t>(pattern)];
 }
 

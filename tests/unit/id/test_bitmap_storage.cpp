@@ -63,8 +63,8 @@ TEST_CASE("the lowest index of an id wins in a bitmap table too", "[id][bitmap_s
     CHECK(storage.find(3) == 0);
 }
 
-TEMPLATE_TEST_CASE("any value of the type may be looked up", "[id][bitmap_storage][A1][T7]", std::int32_t,
-                   std::uint32_t, std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("any value of the type may be looked up in a bitmap_storage", "[id][bitmap_storage][A1][T7]",
+                   std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     using limits = std::numeric_limits<TestType>;
     bitmap_storage<TestType> storage;
     const TestType questions[] = {0, 1, static_cast<TestType>(-1), (limits::min)(), (limits::max)()};
@@ -170,6 +170,7 @@ TEST_CASE("where memory ends, the old bits are intact", "[id][bitmap_storage][T1
         CHECK(storage.find(6000) == absent);
         CHECK(storage.size() == 2);
     }
+    build<decltype(storage)>(storage, {5, 6, 7});         // the pool is full
     for (std::size_t number = 0; number < 3; ++number) {  // two for the bitmap, one for the pool
         auto copy = storage;
         gate.refuse_at(number);
@@ -178,7 +179,7 @@ TEST_CASE("where memory ends, the old bits are intact", "[id][bitmap_storage][T1
         CHECK(copy.find(5) == 0);
         CHECK(copy.find(6) == 1);
         CHECK(copy.find(9000) == absent);
-        CHECK(copy.size() == 2);
+        CHECK(copy.size() == 3);
     }
     build<decltype(storage)>(storage, more);
     gate.refuse_from(0);
@@ -230,7 +231,7 @@ TEST_CASE("bits are counted right without the instruction", "[id][bitmap_storage
     CHECK(right);
 }
 
-TEST_CASE("a copy is independent, and what was moved from is empty", "[id][bitmap_storage]") {
+TEST_CASE("a copy of a bitmap_storage is independent, and what was moved from is empty", "[id][bitmap_storage]") {
     bitmap_storage<> storage;
     build<bitmap_storage<>>(storage, {1, 2});
     auto copy = storage;

@@ -97,7 +97,8 @@ TEST_CASE("reserve sizes for the average of all ranks", "[id][chained_storage][A
     CHECK(storage.size() == 10);
 }
 
-TEST_CASE("a hit rewrites the index, a miss takes a free node, erase gives it back", "[id][chained_storage][A10][A11]") {
+TEST_CASE("a hit rewrites the index, a miss takes a free node, erase gives it back",
+          "[id][chained_storage][A10][A11]") {
     notes_scheme storage;
     storage.reserve(1);
     build(storage, multiples(1, 1000));  // no node is free now
@@ -153,8 +154,8 @@ TEST_CASE("ids that are multiples of the bucket count share one chain under mod_
     CHECK(even.longest_chain() < 12);
 }
 
-TEMPLATE_TEST_CASE("any value of the type may be looked up", "[id][chained_storage][A1][T7]", std::int32_t,
-                   std::uint32_t, std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("any value of the type may be looked up in a chained_storage", "[id][chained_storage][A1][T7]",
+                   std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     using limits = std::numeric_limits<TestType>;
     chained_storage<mod_prime, TestType> notes;
     chained_storage<mixed, TestType> other;
@@ -226,7 +227,7 @@ TEST_CASE("a batch of chained look-ups answers as one at a time", "[id][chained_
     }
 }
 
-TEST_CASE("a copy is independent, and what was moved from is empty", "[id][chained_storage]") {
+TEST_CASE("a copy of a chained_storage is independent, and what was moved from is empty", "[id][chained_storage]") {
     notes_scheme storage;
     build(storage, multiples(1, 2));
     auto copy = storage;

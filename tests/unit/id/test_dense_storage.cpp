@@ -88,8 +88,8 @@ TEST_CASE("a rebuild leaves nothing of the old content behind", "[id][dense_stor
     CHECK(storage.size() == 2);
 }
 
-TEMPLATE_TEST_CASE("any value of the type may be looked up", "[id][dense_storage][A1][T7]", std::int32_t, std::uint32_t,
-                   std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("any value of the type may be looked up in a dense_storage", "[id][dense_storage][A1][T7]",
+                   std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     using limits = std::numeric_limits<TestType>;
     dense_storage<TestType> storage;
     const TestType questions[] = {0, 1, static_cast<TestType>(-1), (limits::min)(), (limits::max)()};
@@ -246,8 +246,8 @@ TEST_CASE("an executor that cannot run costs time, not the answer", "[id][dense_
     CHECK(storage.find(34'999) == 69'998);
 }
 
-TEMPLATE_TEST_CASE("all kernels answer alike, and as one look-up at a time", "[id][dense_storage][A1]", std::int32_t,
-                   std::uint32_t, std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("all kernels of a dense_storage answer alike, and as one look-up at a time",
+                   "[id][dense_storage][A1]", std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     tsubu::random_stream random(2);
     const auto before = tsubu::best_instruction_set();
     for (const std::size_t count : {0U, 1U, 100U, 3000U}) {
@@ -275,7 +275,7 @@ TEMPLATE_TEST_CASE("all kernels answer alike, and as one look-up at a time", "[i
     tsubu::use_instruction_set(before);
 }
 
-TEST_CASE("a copy is independent, and what was moved from is empty", "[id][dense_storage]") {
+TEST_CASE("a copy of a dense_storage is independent, and what was moved from is empty", "[id][dense_storage]") {
     dense_storage<> storage;
     build<dense_storage<>>(storage, {1, 2});
     auto copy = storage;

@@ -71,8 +71,8 @@ bool takes(Map& map, const Ids& ids) {
 
 // --- 1. Map and chain -----------------------------------------------------------------------------------------------
 
-TEMPLATE_LIST_TEST_CASE("T1: an owned particle hides its nearer ghost from find, not from closest_image", "[id][T1][A1]",
-                        policies) {
+TEMPLATE_LIST_TEST_CASE("T1: an owned particle hides its nearer ghost from find, not from closest_image",
+                        "[id][T1][A1]", policies) {
     const built<TestType> map({1, 2, 1, 2});
     const double x[] = {0.1, 0.9, 1.1, -0.1};
     CHECK(map.where.find(1) == 0);
@@ -344,7 +344,8 @@ TEMPLATE_LIST_TEST_CASE("T13: shuffling ghosts moves nothing but ghosts", "[id][
         x.push_back(random.unit());
     }
     for (std::size_t k = 0; k < 150; ++k) {  // images of owned ones, and particles that live elsewhere
-        const auto id = static_cast<std::int64_t>(random.below(2) == 0 ? 5 * random.below(owned_count) : 2000 + random.below(60));
+        const auto id =
+            static_cast<std::int64_t>(random.below(2) == 0 ? 5 * random.below(owned_count) : 2000 + random.below(60));
         ids.push_back(id);
         x.push_back(2 * random.unit() - 0.5);
     }
@@ -437,7 +438,8 @@ TEST_CASE("H1: patterned ids cost the default no more memory, and mixed no longe
     CHECK(map.links() == model.rebuild(ids));
     CHECK(flat.links() == map.links());
     bool right = map.where.size() == model.size();
-    for (const auto id : ids) right = right && map.where.find(id) == model.find(id) && flat.where.find(id) == model.find(id);
+    for (const auto id : ids)
+        right = right && map.where.find(id) == model.find(id) && flat.where.find(id) == model.find(id);
     CHECK(right);
 }
 
@@ -466,6 +468,7 @@ TEST_CASE("the notes' scheme: a hit rewrites the index, a miss takes a free node
     id_map<chained_storage<mod_prime>> where;
     ids_t ids(chained_least_capacity);
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::int64_t>(i);
+    where.rebuild(ids_t{1});  // sizes the table, in which 1000 then fit
     where.rebuild(ids);
     const auto bytes = where.memory_bytes();
     CHECK(where.storage().capacity() == chained_least_capacity);

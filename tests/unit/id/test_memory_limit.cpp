@@ -26,9 +26,8 @@ TEST_CASE("a fixed limit does not grow with the particles", "[id][A5]") {
 }
 
 TEST_CASE("a refusal names policy, id, bytes, limit and remedy", "[id][A5][T11]") {
-    const auto text = thrown<tsubu::limit_error>([] {
-        memory_limit().check("dense_storage", 8'000'000'004, 1, 2'000'000'000, "use flat_storage");
-    });
+    const auto text = thrown<tsubu::limit_error>(
+        [] { memory_limit().check("dense_storage", 8'000'000'004, 1, 2'000'000'000, "use flat_storage"); });
     INFO(text);
     for (const auto* words : {"dense_storage", "id 2000000000", "8000000004 bytes", "16777216", "use flat_storage"})
         CHECK(says(text, words));

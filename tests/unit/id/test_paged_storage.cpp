@@ -87,8 +87,8 @@ TEST_CASE("a rebuild reuses pages and directory and leaves nothing behind", "[id
     CHECK(gate.bytes() == storage.memory_bytes());
 }
 
-TEMPLATE_TEST_CASE("any value of the type may be looked up", "[id][paged_storage][A1][T7]", std::int32_t, std::uint32_t,
-                   std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("any value of the type may be looked up in a paged_storage", "[id][paged_storage][A1][T7]",
+                   std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     using limits = std::numeric_limits<TestType>;
     paged_storage<TestType> storage;
     const TestType questions[] = {0, 1, static_cast<TestType>(-1), (limits::min)(), (limits::max)()};
@@ -201,8 +201,8 @@ TEST_CASE("where memory ends, the old pages are intact", "[id][paged_storage][T1
     CHECK(refused({0, 10'000, 20'000, 30'000, 40'000, 50'000}) == 2);  // the directory is there, pages are not
 }
 
-TEMPLATE_TEST_CASE("all kernels answer alike, and as one look-up at a time", "[id][paged_storage][A1]", std::int32_t,
-                   std::uint32_t, std::int64_t, std::uint64_t) {
+TEMPLATE_TEST_CASE("all kernels of a paged_storage answer alike, and as one look-up at a time",
+                   "[id][paged_storage][A1]", std::int32_t, std::uint32_t, std::int64_t, std::uint64_t) {
     tsubu::random_stream random(2);
     const auto before = tsubu::best_instruction_set();
     for (const std::size_t count : {0U, 1U, 100U, 3000U}) {
@@ -230,7 +230,7 @@ TEMPLATE_TEST_CASE("all kernels answer alike, and as one look-up at a time", "[i
     tsubu::use_instruction_set(before);
 }
 
-TEST_CASE("a copy is independent, and what was moved from is empty", "[id][paged_storage]") {
+TEST_CASE("a copy of a paged_storage is independent, and what was moved from is empty", "[id][paged_storage]") {
     paged_storage<> storage;
     build<paged_storage<>>(storage, {1, 2});
     auto copy = storage;

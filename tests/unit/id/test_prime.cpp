@@ -17,11 +17,12 @@ TEST_CASE("next_prime is the smallest prime above n", "[id][A7][A8][H2]") {
     struct row {
         std::int64_t n, prime;
     };
-    const auto [n, prime] = GENERATE(
-        row{0, 2}, row{1, 2}, row{2, 3}, row{3, 5}, row{4, 5}, row{7, 11}, row{8, 11}, row{24, 29}, row{48, 53},
-        row{1000, 1009}, row{2000, 2003}, row{10'000, 10'007}, row{20'000, 20'011}, row{32'768, 32'771},
-        row{65'536, 65'537}, row{1'000'000, 1'000'003}, row{2'147'483'628, 2'147'483'629},
-        row{2'147'483'629, 2'147'483'647}, row{2'147'483'646, 2'147'483'647}, row{2'147'483'647, 2'147'483'659});
+    const auto [n, prime] =
+        GENERATE(row{0, 2}, row{1, 2}, row{2, 3}, row{3, 5}, row{4, 5}, row{7, 11}, row{8, 11}, row{24, 29},
+                 row{48, 53}, row{1000, 1009}, row{2000, 2003}, row{10'000, 10'007}, row{20'000, 20'011},
+                 row{32'768, 32'771}, row{65'536, 65'537}, row{1'000'000, 1'000'003}, row{2'147'483'628, 2'147'483'629},
+                 row{2'147'483'629, 2'147'483'647}, row{2'147'483'646, 2'147'483'647},
+                 row{2'147'483'647, 2'147'483'659});
     INFO("n = " << n);
     CHECK(next_prime(n) == prime);
     CHECK(next_prime(static_cast<std::uint64_t>(n)) == static_cast<std::uint64_t>(prime));
@@ -48,9 +49,8 @@ TEST_CASE("next_prime agrees with a sieve up to 1 000 000", "[id][A7][H2]") {
 }
 
 TEST_CASE("no prime past the largest of the type: an error, no wrap", "[id][A8][H2]") {
-    const auto text = thrown<tsubu::limit_error>([] {
-        static_cast<void>(next_prime((std::numeric_limits<std::int32_t>::max)()));
-    });
+    const auto text =
+        thrown<tsubu::limit_error>([] { static_cast<void>(next_prime((std::numeric_limits<std::int32_t>::max)())); });
     INFO(text);
     CHECK(says(text, "2147483647"));
     CHECK(says(text, "wider"));

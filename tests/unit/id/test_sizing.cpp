@@ -36,9 +36,7 @@ TEST_CASE("capacities of the largest runs are exact in 64 bits", "[id][A6][T14]"
 }
 
 TEST_CASE("a capacity past 64 bits and a run without ranks are refused", "[id][A6][T14]") {
-    const auto text = thrown<tsubu::limit_error>([] {
-        static_cast<void>(chained_capacity(0, ~std::uint64_t{0}, 1));
-    });
+    const auto text = thrown<tsubu::limit_error>([] { static_cast<void>(chained_capacity(0, ~std::uint64_t{0}, 1)); });
     INFO(text);
     CHECK(says(text, "18446744073709551615"));
     CHECK_THROWS_AS(chained_capacity(std::uint64_t{1} << 63), tsubu::limit_error);

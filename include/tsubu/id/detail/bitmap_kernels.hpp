@@ -3,9 +3,8 @@
 /// The loops of bitmap_storage that count bits, once with the POPCNT instruction and once without.
 ///
 /// Both are compiled from one body: it is inlined into a function that carries the target attribute and into one that
-/// does not, and only the count differs. (Without the instruction, __builtin_popcountll calls the compiler's runtime
-/// library, twice as slow as the sum by halves below.) Gathering the words with AVX-512 gains nothing over this: the
-/// vector count of bits costs what the three gathers save.
+/// does not, and only the count differs. (Without the instruction, __builtin_popcountll is a call of the compiler's
+/// runtime library; the sum by halves below is inlined.)
 #pragma once
 
 #include <tsubu/core/instruction_set.hpp>
@@ -39,7 +38,8 @@ struct bitmap_window {
     unsigned_id<Id> first;
 
     [[nodiscard]] std::uint64_t word_of(Id id) const noexcept {
-        return static_cast<unsigned_id<Id>>(static_cast<unsigned_id<Id>>(static_cast<unsigned_id<Id>>(id) >> 6) - first);
+        using U = unsigned_id<Id>;
+        return static_cast<U>(static_cast<U>(static_cast<U>(id) >> 6) - first);
     }
     /// Place in the pool, 0 if the bit is not set. Precondition: word_of(id) < count.
     template <bool Native>

@@ -89,7 +89,7 @@ __attribute__((target("avx2"))) inline __m256i subtract_avx2(__m256i a, __m256i 
         return _mm256_sub_epi32(a, b);
 }
 
-// All bits of lane k (32 bits) set where a[k] < b[k] (64 bits, b with its sign bit flipped, since AVX2 compares signed).
+// All bits of lane k (32 bits) set where a[k] < b[k] (64 bits; b with its sign bit flipped: AVX2 compares signed).
 __attribute__((target("avx2"))) inline __m128i below_avx2(__m256i a, __m256i flipped_b) noexcept {
     const __m256i sign = _mm256_set1_epi64x(static_cast<long long>(std::uint64_t{1} << 63));
     const __m256i below = _mm256_cmpgt_epi64(flipped_b, _mm256_xor_si256(a, sign));
@@ -134,6 +134,10 @@ __attribute__((target("avx2"))) void gather_avx2(const paged_window<Id>& table, 
     }
     gather_portable(table, ids + k, out + k, n - k);
 }
+
+// Without optimisation GCC's masked gathers are macros that pass the mask as a plain char.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 
 template <particle_id Id>
 __attribute__((target("avx512f"))) inline __m512i lanes_avx512(const Id* ids) noexcept {
@@ -188,6 +192,8 @@ __attribute__((target("avx512f"))) void gather_avx512(const paged_window<Id>& ta
     }
     gather_portable(table, ids + k, out + k, n - k);
 }
+
+#pragma GCC diagnostic pop
 
 #endif
 

@@ -155,17 +155,9 @@ std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const
         std::uint32_t queue[block_size];
         std::uint32_t queued = 0;
         for (std::uint32_t k = block_size; k-- > 0;) {
-            const auto place = block.place[k];
-            const Slot former = slots[place];
-            if constexpr (Layout::keyed) {
-                const auto index = table.indices[place];
-                table.indices[place] = former == 0 ? first_index + k : index;
-                slots[place] = former == 0 ? block.tag[k] : former;
-            } else {
-                slots[place] = former == 0 ? static_cast<Slot>(block.tag[k] | (first_index + k)) : former;
-            }
+            const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], first_index + k);
             queue[queued] = k;
-            queued += static_cast<std::uint32_t>(former != 0);
+            queued += static_cast<std::uint32_t>(taken);
         }
         for (std::uint32_t q = 0; q < queued; ++q) {
             const auto k = queue[q];
@@ -321,7 +313,6 @@ private:
         late_[p].clear();
         line_filler<Layout> filler(table, end_line, links);
         const auto* const items = reinterpret_cast<const item*>(items_.data());
-        Slot* const slots = table.slots<Layout>();
         for (std::size_t t = 0; t < team_; ++t) {
             const auto begin = begin_[p * team_ + t];
             const auto end = cursor_[t * parts_ + p];
@@ -331,19 +322,11 @@ private:
                 const auto to = (std::min)(end, from + block_size);
                 std::uint32_t queued = 0;
                 for (auto i = from; i < to; ++i) {
-                    const auto place = items[i].place;
-                    const Slot former = slots[place];
-                    if constexpr (Layout::slots == 16) {
-                        slots[place] = former == 0 ? items[i].slot : former;
-                    } else if constexpr (Layout::keyed) {
-                        const auto index = table.indices[place];
-                        table.indices[place] = former == 0 ? items[i].index_plus_1 : index;
-                        slots[place] = former == 0 ? items[i].tag : former;
-                    } else {
-                        slots[place] = former == 0 ? items[i].tag | items[i].index_plus_1 : former;
-                    }
+                    const auto entry = entry_of(table, items[i]);
+                    const bool taken =
+                        taken_before<Layout>(table, entry.place, static_cast<Slot>(entry.tag), entry.index_plus_1);
                     queue[queued] = i;
-                    queued += static_cast<std::uint32_t>(former != 0);
+                    queued += static_cast<std::uint32_t>(taken);
                 }
                 for (std::uint32_t q = 0; q < queued; ++q) {
                     const auto entry = entry_of(table, items[queue[q]]);

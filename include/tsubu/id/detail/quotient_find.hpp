@@ -39,14 +39,14 @@ template <class Layout>
                                                           std::uint64_t id) noexcept {
     using Slot = typename Layout::slot_type;
     const auto x = id - table.base;
-    if (!table.may_hold(x)) return absent;
+    if (!table.may_hold<Layout>(x)) return absent;
     const auto at = table.locate<Layout>(x);
     const auto first = at.place & ~std::uint64_t{Layout::slots - 1};
     const auto found = matches<Layout>(table.slots<Layout>() + first, at.tag, static_cast<Slot>(table.tag_mask));
-    const auto index = index_at<Layout>(table, first + (first_match<Layout>(found) & (Layout::slots - 1)));
-    if (found == 0 && table.overflowed(first / Layout::slots)) [[unlikely]]
+    const auto index = index_at<Layout>(table, first + first_match<Layout>(found));
+    if ((static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots)) != 0) [[unlikely]]
         return find_beyond<Layout>(table, stash, at.place, at.tag);
-    return static_cast<index_t>(found != 0 ? index : 0) - 1;
+    return index_if(found != 0, index);
 }
 
 /// From this size on a table does not stay in the second-level cache, and prefetching pays. [bytes]

@@ -40,7 +40,7 @@ struct portable_kernels {
         for (std::uint32_t k = 0; k < block_size; ++k) {
             const auto x = static_cast<std::uint64_t>(ids[k]) - table.base;
             const auto at = table.locate<Layout>(x);
-            block.place[k] = table.may_hold(x) ? static_cast<std::uint32_t>(at.place) : nowhere;
+            block.place[k] = table.may_hold<Layout>(x) ? static_cast<std::uint32_t>(at.place) : nowhere;
             block.tag[k] = at.tag;
         }
     }
@@ -56,9 +56,9 @@ struct portable_kernels {
             const Slot slot = block.slot[k];
             const bool match = (slot & mask) == block.tag[k];
             const auto index = Layout::keyed ? block.index[k] : static_cast<std::uint32_t>(slot & static_cast<Slot>(~mask));
-            out[k] = static_cast<index_t>(match ? index : 0) - 1;
+            out[k] = index_if(match, index);
             queue[queued] = k;
-            queued += static_cast<std::uint32_t>(!match && slot != 0);
+            queued += static_cast<std::uint32_t>(!match) & static_cast<std::uint32_t>(slot != 0);
         }
         return queued;
     }
@@ -73,11 +73,11 @@ struct portable_kernels {
             const auto k = queue[q];
             const auto first = block.place[k] & ~(Layout::slots - 1);
             const auto found = matches<Layout>(table.slots<Layout>() + first, block.tag[k], mask);
-            const auto at = first + (first_match<Layout>(found) & (Layout::slots - 1));
+            const auto at = first + first_match<Layout>(found);
             const auto index = index_at<Layout>(table, at);
-            out[k] = static_cast<index_t>(found != 0 ? index : 0) - 1;
+            out[k] = index_if(found != 0, index);
             queue[kept] = k;
-            kept += static_cast<std::uint32_t>(found == 0 && table.overflowed(first / Layout::slots));
+            kept += static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots);
         }
         return kept;
     }
@@ -197,11 +197,11 @@ struct avx512_kernels {
             else
                 found = _mm512_cmpeq_epi64_mask(_mm512_and_si512(line, mask),
                                                 _mm512_set1_epi64(static_cast<long long>(block.tag[k])));
-            const auto at = first + (static_cast<std::uint32_t>(std::countr_zero(found)) & (Layout::slots - 1));
+            const auto at = first + first_match<Layout, 1>(found);
             const auto index = index_at<Layout>(table, at);
-            out[k] = static_cast<index_t>(found != 0 ? index : 0) - 1;
+            out[k] = index_if(found != 0, index);
             queue[kept] = k;
-            kept += static_cast<std::uint32_t>(found == 0 && table.overflowed(first / Layout::slots));
+            kept += static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots);
         }
         return kept;
     }
@@ -347,11 +347,11 @@ struct avx2_kernels {
                 const __m256i tag = _mm256_set1_epi64x(static_cast<long long>(block.tag[k]));
                 found = movemask_64(_mm256_cmpeq_epi64(low, tag)) | movemask_64(_mm256_cmpeq_epi64(high, tag)) << 4;
             }
-            const auto at = first + (static_cast<std::uint32_t>(std::countr_zero(found)) & (Layout::slots - 1));
+            const auto at = first + first_match<Layout, 1>(found);
             const auto index = index_at<Layout>(table, at);
-            out[k] = static_cast<index_t>(found != 0 ? index : 0) - 1;
+            out[k] = index_if(found != 0, index);
             queue[kept] = k;
-            kept += static_cast<std::uint32_t>(found == 0 && table.overflowed(first / Layout::slots));
+            kept += static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots);
         }
         return kept;
     }

@@ -94,9 +94,13 @@ struct line_table {
     [[nodiscard]] auto* slots() const noexcept {
         return reinterpret_cast<typename Layout::slot_type*>(memory);
     }
-    [[nodiscard]] bool may_hold(std::uint64_t x) const noexcept { return x - least_x <= limit; }
-    [[nodiscard]] bool overflowed(std::uint64_t line) const noexcept {
-        return (overflow[line / 64] >> (line % 64) & 1) != 0;
+    template <class Layout>
+    [[nodiscard]] bool may_hold(std::uint64_t x) const noexcept {
+        return Layout::keyed ? x != 0 : x <= limit;
+    }
+    /// 1 if ids were passed on from this line, else 0: to be combined with & where && would be a branch.
+    [[nodiscard]] std::uint32_t overflow_bit(std::uint64_t line) const noexcept {
+        return static_cast<std::uint32_t>(overflow[line / 64] >> (line % 64)) & 1U;
     }
     /// Place of the line that is always empty: where ids out of range look.
     template <class Layout>
@@ -145,11 +149,11 @@ template <class Layout>
 #endif
 }
 
-/// The slot that the lowest bit of `matches` names.
-template <class Layout>
+/// The slot that the lowest bit of `found` names, some slot if there is none. Bit 16 is never set by a match: it spares
+/// the branch that countr_zero takes for 0.
+template <class Layout, std::uint32_t BitsPerSlot = 16 / Layout::slots>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t first_match(std::uint32_t found) noexcept {
-    const auto bit = static_cast<std::uint32_t>(std::countr_zero(found));
-    return Layout::slots == 16 ? bit : bit / 2;
+    return static_cast<std::uint32_t>(std::countr_zero(found | 0x10000U)) / BitsPerSlot % Layout::slots;
 }
 
 /// index + 1 that stands at a place.
@@ -161,6 +165,29 @@ template <class Layout>
         using Slot = typename Layout::slot_type;
         return static_cast<std::uint32_t>(table.slots<Layout>()[place] & static_cast<Slot>(~table.tag_mask));
     }
+}
+
+/// index + 1 -> index, or absent; by a mask, because a compiler may turn ?: into a branch that is then mispredicted.
+[[nodiscard, gnu::always_inline]] inline index_t index_if(bool there, std::uint32_t index_plus_1) noexcept {
+    return static_cast<index_t>(index_plus_1 & (0U - static_cast<std::uint32_t>(there))) - 1;
+}
+
+/// Stores the id at its preferred place if that is empty. @return whether it was not; no branch depends on it.
+template <class Layout>
+[[nodiscard, gnu::always_inline]] inline bool taken_before(const line_table& table, std::uint64_t place,
+                                                           typename Layout::slot_type tag,
+                                                           std::uint32_t index_plus_1) noexcept {
+    using Slot = typename Layout::slot_type;
+    Slot& slot = table.slots<Layout>()[place];
+    const bool taken = slot != 0;
+    const auto if_free = static_cast<Slot>(static_cast<Slot>(taken) - 1);  // all ones, or 0
+    if constexpr (Layout::keyed) {
+        slot |= tag & if_free;
+        table.indices[place] |= index_plus_1 & static_cast<std::uint32_t>(if_free);
+    } else {
+        slot |= (tag | static_cast<Slot>(index_plus_1)) & if_free;
+    }
+    return taken;
 }
 
 template <class Layout>

@@ -12,6 +12,7 @@
 #include <tsubu/id/memory_limit.hpp>
 
 #include <algorithm>  // std::min, std::max
+#include <bit>        // std::countr_zero
 #include <cstddef>    // std::byte, std::size_t
 #include <cstdint>    // std::int64_t, std::uint32_t, std::uint64_t
 #include <cstring>    // std::memcpy, std::memset
@@ -136,10 +137,24 @@ public:
         size_ = 0;
     }
 
+    /// Calls each(id, index) for every id that is present, in increasing id.
+    template <class Each>
+    void for_each(Each&& each) const {
+        for (std::size_t w = 0; w < words_.size(); ++w) {
+            std::size_t place = starts_[w];
+            for (auto rest = words_[w]; rest != 0; rest &= rest - 1, ++place)
+                if (pool_[place] != absent)
+                    each(static_cast<Id>(static_cast<unsigned_type>(
+                             (first_word_ + w) * word_bits + static_cast<unsigned>(std::countr_zero(rest)))),
+                         pool_[place]);
+        }
+    }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept {
         return words_.memory_bytes() + starts_.memory_bytes() + pool_.memory_bytes();
     }
+    /// Bounds the tables from here on; what they hold already stays.
+    void limit_memory(memory_limit limit) noexcept { limit_ = limit; }
     [[nodiscard]] Allocator get_allocator() const noexcept { return pool_.get_allocator(); }
 
 private:

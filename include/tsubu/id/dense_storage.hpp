@@ -154,6 +154,8 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const noexcept {
         return table_.memory_bytes() + touched_.memory_bytes();
     }
+    /// Bounds the tables from here on; what they hold already stays.
+    void limit_memory(memory_limit limit) noexcept { limit_ = limit; }
     [[nodiscard]] Allocator get_allocator() const noexcept { return table_.get_allocator(); }
 
 private:

@@ -69,10 +69,11 @@ public:
     }
     ~flat_storage() = default;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        return with_lines([&]<class Layout>(Layout) {
-            return detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(id));
-        });
+    [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
+        // Only one kind of lines is inlined: three in a loop cost a fifth of the time of each.
+        if (lines_ == flat_lines::narrow) [[likely]]
+            return detail::find_one<detail::narrow_lines>(table_, stash_.entries(), static_cast<std::uint64_t>(id));
+        return find_in_wider(id);
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         const auto blocks = ids.size() / detail::block_size;
@@ -161,7 +162,18 @@ public:
         stash_.clear();
         size_ = used_ = 0;
     }
+    /// Calls each(id, index) for every id that is present, in no particular order.
+    template <class Each>
+    void for_each(Each&& each) const {
+        with_lines([&]<class Layout>(Layout) {
+            detail::for_each_entry<Layout>(table_, stash_.entries(), [&](std::uint64_t key, std::uint32_t index_plus_1) {
+                each(static_cast<Id>(key), static_cast<index_t>(index_plus_1) - 1);
+            });
+        });
+    }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Bounds the tables from here on; what they hold already stays.
+    void limit_memory(memory_limit limit) noexcept { limit_ = limit; }
     [[nodiscard]] Allocator get_allocator() const noexcept { return memory_.get_allocator(); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return memory_.memory_bytes() + stash_.memory_bytes(); }
 
@@ -188,6 +200,11 @@ private:
     template <class Call>
     [[gnu::always_inline]] decltype(auto) with_lines(Call&& call) const {
         return with_lines(lines_, std::forward<Call>(call));
+    }
+    [[nodiscard, gnu::noinline]] index_t find_in_wider(Id id) const noexcept {
+        return with_lines([&]<class Layout>(Layout) {
+            return detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(id));
+        });
     }
     [[nodiscard]] bool may_hold(std::uint64_t key) const noexcept {
         return with_lines([&]<class Layout>(Layout) { return table_.may_hold<Layout>(key - table_.base); });

@@ -154,10 +154,21 @@ public:
         size_ = 0;
     }
 
+    /// Calls each(id, index) for every id that is present, page by page.
+    template <class Each>
+    void for_each(Each&& each) const {
+        for (std::size_t page = 1; page < used_; ++page)
+            for (std::size_t k = 0; k < page_size; ++k)
+                if (const index_t index = pool_[(page << Options.page_bits) + k]; index != absent)
+                    each(static_cast<Id>(static_cast<unsigned_type>(((first_ + places_[page]) << Options.page_bits) + k)),
+                         index);
+    }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept {
         return directory_.memory_bytes() + places_.memory_bytes() + pool_.memory_bytes();
     }
+    /// Bounds the tables from here on; what they hold already stays.
+    void limit_memory(memory_limit limit) noexcept { limit_ = limit; }
     [[nodiscard]] Allocator get_allocator() const noexcept { return pool_.get_allocator(); }
 
     /// Pages that hold ids, or held some since the last rebuild.

@@ -32,8 +32,8 @@ template <class Layout>
     return absent;
 }
 
-/// One id. No branch depends on whether it is there, nor in which slot: a mispredicted branch costs more than
-/// comparing the whole line.
+/// One id. No branch depends on whether it is there, nor in which slot: looking at the preferred slot first would save
+/// a third of the instructions on hits, but its mispredicted branches double the time of misses.
 template <class Layout>
 [[nodiscard, gnu::always_inline]] inline index_t find_one(const line_table& table, std::span<const spilled_id> stash,
                                                           std::uint64_t id) noexcept {

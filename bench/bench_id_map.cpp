@@ -25,10 +25,15 @@
 #include <tsubu/id/flat_storage.hpp>
 #include <tsubu/id/paged_storage.hpp>
 
+#include <algorithm>    // std::minmax_element
 #include <chrono>       // std::chrono::steady_clock
-#include <cstdio>       // std::fprintf
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int64_t, std::uint32_t, std::uint64_t
+#include <cstdio>       // std::fprintf, std::snprintf
 #include <cstdlib>      // EXIT_SUCCESS
 #include <cstring>      // std::strcmp
+#include <memory>       // std::unique_ptr
+#include <stdexcept>    // std::runtime_error
 #include <string>       // std::string
 #include <string_view>  // std::string_view
 #include <vector>       // std::vector

@@ -722,8 +722,8 @@ def claim_section(results):
         kind = {True: "holds", False: "fails", None: ""}[claim.holds()]
         cells[-1] = f'<td class="{kind}">{cells[-1]}</td>'
         rows.append(cells)
-    held, judged = (sum(c.holds() is want for c in all_claims(results)) for want in (True, False))
-    return (f'<h2 id="claims">What must hold</h2><p>{held} of {held + judged} claims that this run can judge hold. '
+    held, failed = (sum(c.holds() is want for c in all_claims(results)) for want in (True, False))
+    return (f'<h2 id="claims">What must hold</h2><p>{held} of {held + failed} claims that this run can judge hold. '
             "A claim holds where it holds at the worst of its points. Portable: the default without vector "
             "instructions, at the worst of the same points.</p>" + table(CLAIM_HEAD, rows))
 

@@ -6,6 +6,7 @@
 #include "id_set.hpp"
 
 #include <cctype>     // std::isalpha
+#include <cstddef>    // std::size_t
 #include <fstream>    // std::ifstream
 #include <sstream>    // std::istringstream
 #include <stdexcept>  // std::runtime_error

@@ -12,9 +12,10 @@
 #include <tsubu/id/sizing.hpp>
 
 #include <algorithm>  // std::max, std::min
-#include <array>      // std::array
-#include <cmath>      // std::cbrt
-#include <string>     // std::string, std::to_string
+#include <cmath>      // std::abs, std::cbrt, std::sqrt
+#include <cstddef>    // std::ptrdiff_t, std::size_t
+#include <cstdint>    // std::uint64_t
+#include <utility>    // std::move
 #include <vector>     // std::vector
 
 namespace bench {

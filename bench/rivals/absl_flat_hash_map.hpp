@@ -8,6 +8,9 @@
 #include <absl/container/flat_hash_map.h>
 
 #include <algorithm>  // std::min
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t
+#include <span>       // std::span
 
 namespace bench {
 

@@ -7,6 +7,9 @@
 
 #include <boost/unordered/unordered_flat_map.hpp>
 
+#include <cstdint>     // std::int64_t
+#include <functional>  // std::equal_to
+
 namespace bench {
 
 template <tsubu::particle_id Id>

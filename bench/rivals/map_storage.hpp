@@ -5,7 +5,9 @@
 
 #include "../support/counting_allocator.hpp"
 
+#include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
+#include <tsubu/id/id_range.hpp>
 
 #include <cstddef>  // std::size_t
 #include <memory>   // std::unique_ptr

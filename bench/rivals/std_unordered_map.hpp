@@ -5,6 +5,8 @@
 
 #include "map_storage.hpp"
 
+#include <cstdint>        // std::int64_t
+#include <functional>     // std::equal_to, std::hash
 #include <unordered_map>  // std::unordered_map
 
 namespace bench {

@@ -15,8 +15,8 @@
 
 #include <algorithm>  // std::min
 #include <concepts>   // std::constructible_from, std::same_as
-#include <cstdint>    // std::uint64_t
-#include <memory>     // std::unique_ptr
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t, std::uint64_t
 #include <span>       // std::span
 #include <vector>     // std::vector
 

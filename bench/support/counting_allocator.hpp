@@ -5,8 +5,9 @@
 
 #include <tsubu/core/buffer.hpp>
 
-#include <cstddef>  // std::size_t
-#include <memory>   // std::allocator
+#include <cstddef>      // std::size_t
+#include <memory>       // std::allocator
+#include <type_traits>  // std::true_type, std::false_type
 
 namespace bench {
 

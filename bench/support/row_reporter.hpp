@@ -5,10 +5,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cstdint>    // std::int64_t
 #include <cstdio>     // std::snprintf
 #include <fstream>    // std::ofstream
-#include <map>        // std::map
 #include <stdexcept>  // std::runtime_error
 #include <string>     // std::string
 #include <utility>    // std::pair

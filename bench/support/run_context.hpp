@@ -56,17 +56,20 @@ namespace bench {
 
 [[nodiscard]] inline std::vector<std::pair<std::string, std::string>> run_context() {
     return {
-        {"date", time_now()}, {"machine", line_of("/proc/cpuinfo", "model name")},
-            {"cores", std::to_string(std::thread::hardware_concurrency())},
-            {"l2_cache", line_of("/sys/devices/system/cpu/cpu0/cache/index2/size")},
-            {"l3_cache", line_of("/sys/devices/system/cpu/cpu0/cache/index3/size")},
-            {"huge_pages", line_of("/sys/kernel/mm/transparent_hugepage/enabled")}, {"compiler", compiler_name()},
-            {"flags", TSUBU_BENCH_FLAGS}, {"commit", TSUBU_BENCH_COMMIT},
-            {"instruction_set", tsubu::name_of(tsubu::best_instruction_set())},
+        {"date", time_now()},
+        {"machine", line_of("/proc/cpuinfo", "model name")},
+        {"cores", std::to_string(std::thread::hardware_concurrency())},
+        {"l2_cache", line_of("/sys/devices/system/cpu/cpu0/cache/index2/size")},
+        {"l3_cache", line_of("/sys/devices/system/cpu/cpu0/cache/index3/size")},
+        {"huge_pages", line_of("/sys/kernel/mm/transparent_hugepage/enabled")},
+        {"compiler", compiler_name()},
+        {"flags", TSUBU_BENCH_FLAGS},
+        {"commit", TSUBU_BENCH_COMMIT},
+        {"instruction_set", tsubu::name_of(tsubu::best_instruction_set())},
 #if defined(NDEBUG)
-            {"assertions", "off"},
+        {"assertions", "off"},
 #else
-            {"assertions", "on"},
+        {"assertions", "on"},
 #endif
     };
 }

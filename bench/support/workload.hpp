@@ -7,12 +7,12 @@
 
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>      // std::sort
-#include <cstddef>        // std::size_t
-#include <cstdint>        // std::uint32_t
-#include <numeric>        // std::iota
-#include <unordered_map>  // std::unordered_map
-#include <vector>         // std::vector
+#include <algorithm>  // std::clamp, std::minmax_element, std::sort
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint32_t, std::uint64_t
+#include <numeric>    // std::iota
+#include <utility>    // std::swap
+#include <vector>     // std::vector
 
 namespace bench {
 

@@ -9,6 +9,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/executor.hpp>
 #include <tsubu/core/expects.hpp>
+#include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 
@@ -18,6 +19,7 @@
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/copies.hpp>
 #include <tsubu/id/dense_storage.hpp>
+#include <tsubu/id/flat_lines.hpp>
 #include <tsubu/id/flat_storage.hpp>
 #include <tsubu/id/hash.hpp>
 #include <tsubu/id/id_map.hpp>

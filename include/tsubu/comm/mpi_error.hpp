@@ -19,7 +19,7 @@ namespace tsubu {
 class mpi_error : public error {
 public:
     mpi_error(std::string call, int error_class, std::string text)
-        : error("tsubu: " + call + ": " + text + "; the communicator cannot be used any more, end the program"),
+        : error("tsubu::mpi_error: " + call + ": " + text + "; end the program, this communicator is beyond use"),
           call_(std::move(call)),
           text_(std::move(text)),
           error_class_(error_class) {}

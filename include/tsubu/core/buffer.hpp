@@ -5,13 +5,13 @@
 
 #include <tsubu/core/error.hpp>
 
-#include <cstddef>      // std::size_t
+#include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::uintptr_t
 #include <cstring>      // std::memcpy
 #include <memory>       // std::allocator_traits
 #include <new>          // std::bad_array_new_length
 #include <type_traits>  // std::is_trivially_copyable_v
-#include <utility>      // std::exchange, std::swap
+#include <utility>      // std::exchange, std::move, std::swap
 
 #if defined(__linux__)
 #include <sys/mman.h>  // madvise
@@ -29,9 +29,11 @@ inline constexpr std::size_t huge_page_threshold = std::size_t{32} << 20;
 inline void advise_huge_pages(void* begin, std::size_t bytes) noexcept {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20;  // x86-64 and AArch64 with 4 KiB base pages
-    const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) & ~(page - 1);
-    const auto last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) & ~(page - 1);
-    if (last > first) static_cast<void>(::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+    const auto address = reinterpret_cast<std::uintptr_t>(begin);
+    const auto first = (address + page - 1) & ~(page - 1);
+    const auto last = (address + bytes) & ~(page - 1);
+    if (last > first)
+        static_cast<void>(::madvise(static_cast<std::byte*>(begin) + (first - address), last - first, MADV_HUGEPAGE));
 #else
     static_cast<void>(begin);
     static_cast<void>(bytes);
@@ -42,6 +44,9 @@ inline void advise_huge_pages(void* begin, std::size_t bytes) noexcept {
 ///
 /// What a storage policy keeps its table in: a vector would write every element once for nothing, and would fault
 /// the pages in before huge pages could be asked for.
+///
+///     tsubu::buffer<tsubu::index_t> table(count, {});
+///     std::fill(table.begin(), table.end(), tsubu::absent);
 ///
 /// @tparam Value      trivially copyable; its alignment is honoured (a cache line may be a value).
 /// @tparam Allocator  any allocator; it is rebound to Value.
@@ -57,7 +62,8 @@ class buffer {
 public:
     buffer() noexcept(noexcept(value_allocator())) : allocator_() {}
     explicit buffer(const Allocator& allocator) noexcept : allocator_(allocator) {}
-    /// @throws whatever the allocator throws; nothing is held then.
+    /// @throws std::bad_array_new_length if the bytes do not fit std::size_t, and whatever the allocator throws;
+    ///         nothing is held then.
     buffer(std::size_t count, const Allocator& allocator) : allocator_(allocator) { allocate(count); }
 
     buffer(const buffer& other)
@@ -69,7 +75,7 @@ public:
         : allocator_(std::move(other.allocator_)),
           values_(std::exchange(other.values_, nullptr)),
           count_(std::exchange(other.count_, 0)) {}
-    /// The allocator stays that of the right-hand side: tables move with the memory they live in.
+    /// The allocator becomes that of the right-hand side: tables move with the memory they live in.
     buffer& operator=(const buffer& other) {
         if (this != &other) buffer(other).swap(*this);
         return *this;

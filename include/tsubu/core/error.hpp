@@ -6,7 +6,7 @@
 #include <tsubu/version.hpp>
 
 #include <stdexcept>  // std::runtime_error
-#include <string>     // std::string, std::to_string
+#include <string>     // std::string
 
 namespace tsubu {
 

@@ -8,7 +8,7 @@
 
 #include <concepts>   // std::same_as
 #include <cstddef>    // std::size_t
-#include <exception>  // std::exception_ptr
+#include <exception>  // std::exception
 #include <thread>     // std::thread
 #include <vector>     // std::vector
 

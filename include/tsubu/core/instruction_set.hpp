@@ -3,6 +3,8 @@
 /// Which vector instructions may the kernels use on this machine? Asked at run time: programs are built with plain -O2.
 #pragma once
 
+#include <tsubu/version.hpp>
+
 #include <atomic>            // std::atomic
 #include <cstdlib>           // std::getenv
 #include <cstring>           // std::strcmp
@@ -17,6 +19,7 @@ enum class instruction_set : int {
     avx512,    ///< AVX-512 F, BW, VL, DQ, CD
 };
 
+/// As TSUBU_INSTRUCTION_SET spells it.
 [[nodiscard]] constexpr const char* name_of(instruction_set set) noexcept {
     switch (set) {
         case instruction_set::avx512: return "avx512";

@@ -12,7 +12,7 @@
 
 #include <tsubu/version.hpp>
 
-#include <concepts>     // std::integral
+#include <concepts>     // std::integral, std::same_as, std::signed_integral
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t
 #include <limits>       // std::numeric_limits
@@ -30,11 +30,11 @@ inline constexpr index_t absent = -1;
 /// Largest number of particles, owned and ghost, on one rank: every index, and index + 1, fits index_t.
 inline constexpr std::size_t max_index_count = static_cast<std::size_t>((std::numeric_limits<index_t>::max)());
 
-/// A type that may hold global ids: an integer of 32 or 64 bits, signed or unsigned.
+/// A type that may hold global ids: an integer of 32 or 64 bits, signed or unsigned, but no character.
 /// Negative values are legal as questions (the answer is `absent`), never as ids of particles.
 template <class Id>
-concept particle_id = std::integral<Id> && (sizeof(Id) == 4 || sizeof(Id) == 8) && !std::same_as<Id, bool> &&
-                      !std::same_as<Id, wchar_t> && !std::same_as<Id, char32_t>;
+concept particle_id = std::integral<Id> && (sizeof(Id) == 4 || sizeof(Id) == 8) && !std::same_as<Id, wchar_t> &&
+                      !std::same_as<Id, char32_t>;
 
 namespace detail {
 

@@ -13,15 +13,15 @@
 #include <tsubu/id/memory_limit.hpp>
 #include <tsubu/id/paged_storage.hpp>
 
-#include <algorithm>    // std::min
-#include <concepts>     // std::same_as
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::int64_t
-#include <memory>       // std::allocator
-#include <span>         // std::span
-#include <string>       // std::string, std::to_string
-#include <utility>      // std::move
-#include <variant>      // std::variant
+#include <algorithm>  // std::min
+#include <concepts>   // std::same_as
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t
+#include <memory>     // std::allocator
+#include <span>       // std::span
+#include <string>     // std::string, std::to_string
+#include <utility>    // std::in_place_type, std::move
+#include <variant>    // std::variant
 
 namespace tsubu {
 
@@ -29,19 +29,19 @@ namespace tsubu {
 enum class adaptive_choice { flat, dense, bitmap, paged };
 
 /// What adaptive_storage looks at.
-struct id_pattern {
+struct id_distribution {
     std::size_t count = 0;     ///< number of ids, N
     std::uint64_t extent = 0;  ///< highest - lowest
-    double occupancy = 0;      ///< ids per 1024 values around an id: 1 in blocks, N / T at random [1]
+    double occupancy = 0;  ///< share of the 1024 values around an id that are taken: 1 in blocks, N / T at random [1]
 };
 
 /// From which pattern to which table. The numbers are the crossovers that bench/run draws (look-up and rebuild, on
 /// a second-level cache of 1 MiB); a dense table wins as long as it stays in the caches.
-[[nodiscard]] constexpr adaptive_choice choose_table(const id_pattern& ids) noexcept {
+[[nodiscard]] constexpr adaptive_choice choose_table(const id_distribution& ids) noexcept {
     constexpr std::uint64_t cached_entries = std::uint64_t{2} << 20;  // 8 MiB of indices
-    constexpr std::uint64_t cached_ratio = 24;   // up to there dense wins at 1e4 and 1e5 ids
-    constexpr std::uint64_t dense_ratio = 6;     // beyond 8 MiB; bitmap wins from there ...
-    constexpr std::uint64_t bitmap_ratio = 16;   // ... to here
+    constexpr std::uint64_t cached_ratio = 24;                        // up to there dense wins at 1e4 and 1e5 ids
+    constexpr std::uint64_t dense_ratio = 6;                          // beyond 8 MiB; bitmap wins from there ...
+    constexpr std::uint64_t bitmap_ratio = 16;                        // ... to here
     constexpr double block_occupancy = 0.375;    // from there paged takes less memory than flat, and is faster ...
     constexpr std::uint64_t paged_ratio = 2048;  // ... as long as its directory takes at most 8 bytes per id
     const auto within = [&](std::uint64_t ratio) { return ids.extent / ratio < ids.count; };
@@ -112,21 +112,20 @@ public:
         with_table([&](const auto& table) { table.prefetch(id); });
     }
 
+    /// @throws limit_error if not even flat lines keep within the memory limit. Strong guarantee.
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links) {
         rebuild(ids, range, links, this_thread{});
     }
     template <executor Executor>
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links, const Executor& on) {
         if (ids.empty()) return clear();
-        const id_pattern seen{ids.size(), range.extent(), detail::sampled_occupancy(ids)};
+        const id_distribution seen{ids.size(), range.extent(), detail::sampled_occupancy(ids)};
         auto wanted = choose_table(seen);
         if (!admits(wanted, seen)) wanted = adaptive_choice::flat;
         switch (wanted) {
             case adaptive_choice::dense: rebuild_as<dense>(ids, range, links, on); break;
             case adaptive_choice::bitmap: rebuild_as<bitmap>(ids, range, links, on); break;
-            case adaptive_choice::paged:
-                try {
-                    rebuild_as<paged>(ids, range, links, on);
+            case adaptive_choice::paged: try { rebuild_as<paged>(ids, range, links, on);
                 } catch (const limit_error&) {  // more pages than the sample promised
                     rebuild_as<flat>(ids, range, links, on);
                 }
@@ -137,6 +136,7 @@ public:
         seen_ = seen;
     }
 
+    /// @throws limit_error as rebuild. Strong guarantee.
     void assign(Id id, index_t index) {
         const auto range = range_.with(id);
         if (choice() == adaptive_choice::flat || range_.contains(id) || suits(range)) {
@@ -154,6 +154,7 @@ public:
     bool erase(Id id) noexcept {
         return with_table([&](auto& table) { return table.erase(id); });
     }
+    /// Room in the present table; the next rebuild may pick another. @throws limit_error as that table.
     void reserve(std::size_t count) {
         with_table([&](auto& table) { table.reserve(count); });
     }
@@ -175,20 +176,23 @@ public:
     /// The table that holds the ids.
     [[nodiscard]] adaptive_choice choice() const noexcept { return static_cast<adaptive_choice>(table_.index()); }
     /// What the last rebuild saw.
-    [[nodiscard]] const id_pattern& seen() const noexcept { return seen_; }
+    [[nodiscard]] const id_distribution& seen() const noexcept { return seen_; }
     /// The choice and its reason in one sentence.
     [[nodiscard]] std::string explain() const {
-        if (range_.empty()) return "flat_storage: no ids yet, and it suits any";
+        if (range_.empty()) return "no ids yet";
         const auto numbers = std::to_string(size()) + " ids between " + std::to_string(range_.lowest) + " and " +
                              std::to_string(range_.highest);
         switch (choice()) {
-            case adaptive_choice::dense: return "dense_storage: " + numbers + " fill enough of their range for an array of it";
+            case adaptive_choice::dense:
+                return "dense_storage: " + numbers + " fill enough of their range for an array of it";
             case adaptive_choice::bitmap:
-                return "bitmap_storage: " + numbers + " are too many for an array of their range in the caches, and dense "
+                return "bitmap_storage: " + numbers +
+                       " are too many for an array of their range in the caches, and dense "
                        "enough for a bitmap of it";
             case adaptive_choice::paged:
                 return "paged_storage: " + numbers + " come in blocks, " +
-                       std::to_string(static_cast<int>(100 * seen_.occupancy)) + " % full, in a range that is mostly empty";
+                       std::to_string(static_cast<int>(100 * seen_.occupancy)) +
+                       " % full, in a range that is mostly empty";
             case adaptive_choice::flat: break;
         }
         return std::string("flat_storage with ") + name_of(std::get<flat>(table_).lines()) + " lines: " + numbers +
@@ -206,7 +210,7 @@ private:
     static constexpr std::uint64_t paged_floor = std::uint64_t{1} << 18;  // 64 pages, however few ids
 
     // Each table refuses by itself what the limit does not admit; these are their bytes, rounded up.
-    [[nodiscard]] bool admits(adaptive_choice choice, const id_pattern& ids) const noexcept {
+    [[nodiscard]] bool admits(adaptive_choice choice, const id_distribution& ids) const noexcept {
         const auto values = ids.extent + 1;
         switch (choice) {
             case adaptive_choice::dense: return limit_.admits(values * 4 + values / 1024 + 64, ids.count);
@@ -217,7 +221,7 @@ private:
         return true;
     }
     [[nodiscard]] bool suits(id_range<Id> range) const noexcept {
-        const id_pattern widened{size() + 1, range.extent(), seen_.occupancy};
+        const id_distribution widened{size() + 1, range.extent(), seen_.occupancy};
         return choose_table(widened) == choice() && admits(choice(), widened);
     }
     template <class Table, executor Executor>
@@ -266,10 +270,10 @@ private:
 
     std::variant<flat, dense, bitmap, paged> table_{};
     id_range<Id> range_{};  // of all ids since the last rebuild or clear, erased ones included
-    id_pattern seen_{};
+    id_distribution seen_{};
     memory_limit limit_{};
 };
-static_assert(id_storage<adaptive_storage<>> && batched_lookup<adaptive_storage<>> && prefetchable<adaptive_storage<>> &&
-              parallel_rebuild<adaptive_storage<>>);
+static_assert(id_storage<adaptive_storage<>> && batched_lookup<adaptive_storage<>> &&
+              prefetchable<adaptive_storage<>> && parallel_rebuild<adaptive_storage<>>);
 
 }  // namespace tsubu

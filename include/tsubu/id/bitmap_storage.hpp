@@ -8,6 +8,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/bitmap_kernels.hpp>
+#include <tsubu/id/detail/fill_absent.hpp>
 #include <tsubu/id/id_range.hpp>
 #include <tsubu/id/memory_limit.hpp>
 
@@ -102,12 +103,12 @@ public:
         const auto set = best_instruction_set();
         used_ = detail::bitmap_number(set, words_.data(), starts_.data(), words_.size());
         size_ = used_ - 1;
-        fill_absent(pool_.data(), used_);
+        detail::fill_absent(pool_.data(), used_);
         detail::bitmap_insert(set, map, pool_.data(), ids.data(),
                               links.empty() ? nullptr : links.data(), ids.size());
     }
 
-    /// Strong guarantee.
+    /// @throws limit_error if the bitmap or the pool would pass the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         if (window().word_of(id) >= words_.size()) widen(id);
         auto place = window().template place_of<false>(id);
@@ -124,6 +125,7 @@ public:
     }
 
     /// Room for the indices of `count` ids and for the bits of as many ids without gaps.
+    /// @throws limit_error if that passes the memory limit. Strong guarantee.
     void reserve(std::size_t count) {
         const auto words = (std::max)(words_.size(), static_cast<std::size_t>(word_count_of(count)));
         check("reserve", words, count + 1, count, count == 0 ? 0 : count - 1);
@@ -180,10 +182,6 @@ private:
     }
     [[nodiscard]] static unsigned_type word_number(Id id) noexcept {
         return static_cast<unsigned_type>(static_cast<unsigned_type>(id) / word_bits);
-    }
-    static void fill_absent(index_t* entries, std::size_t count) noexcept {
-        static_assert(absent == -1, "filled bytewise");
-        std::memset(entries, 0xff, count * sizeof(index_t));
     }
     void check(const char* member, std::uint64_t words, std::uint64_t entries, std::size_t count,
                std::uint64_t id) const {

@@ -18,7 +18,7 @@
 #include <cstdint>    // std::int64_t, std::uint32_t, std::uint64_t
 #include <memory>     // std::allocator
 #include <span>       // std::span
-#include <string>     // std::to_string
+#include <string>     // std::string, std::to_string
 #include <utility>    // std::exchange, std::move, std::swap
 
 namespace tsubu {
@@ -108,7 +108,7 @@ public:
         }
     }
 
-    /// Strong guarantee.
+    /// @throws limit_error if all nodes are taken and a larger pool would pass the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         if (free_ == nil && find(id) == absent) resize("assign", size_ + 1);
         insert(id, index);
@@ -126,6 +126,7 @@ public:
         return false;
     }
 
+    /// Sizes for `count` ids if M is less. @throws limit_error past the memory limit. Strong guarantee.
     void reserve(std::size_t count) {
         if (count > nodes_.size()) resize("reserve", count);
     }

@@ -2,16 +2,17 @@
 /// @file
 /// What a storage policy of id_map must offer, and the table of those that are shipped.
 ///
-/// policy                        find      rebuild   bytes per id          choose it when
-/// dense_storage                 1 load    O(N + T)  4 T/N                 ids fill their range: T/N up to 2 .. 8
-/// bitmap_storage                2 loads   O(N + T/64) 4 + .19 T/N         memory is tight and T/N <= 16
-/// paged_storage                 2 loads   O(N + pages) 4 per page entry   ids come in blocks
-/// flat_storage                  1 line    O(N)      8 | 16 | 20           any ids: the general table
-/// chained_storage<mixed>        chain     O(N)      40                    many assign and erase between rebuilds
-/// chained_storage<mod_prime>    chain     O(N) .. O(N^2)  40              to reproduce the notes' scheme, no more
-/// adaptive_storage (default)    as chosen as chosen as chosen             you do not know, or the ids change
+/// policy                      find       rebuild         bytes per id        choose it when
+/// dense_storage               1 load     O(N + T)        4 T/N               ids fill their range: T/N up to 6, or
+///                                                                            24 while the table is below 8 MiB
+/// bitmap_storage              2 loads    O(N + T/64)     4 + .19 T/N         memory is tight and T/N <= 16
+/// paged_storage               2 loads    O(N + pages)    4 per page entry    ids come in blocks
+/// flat_storage                1 line     O(N)            8 | 16 | 20         any ids: the general table
+/// chained_storage<mixed>      chain      O(N)            40                  many assign and erase between rebuilds
+/// chained_storage<mod_prime>  chain      O(N) .. O(N^2)  40                  to reproduce the notes' scheme, no more
+/// adaptive_storage (default)  as picked  as picked       as picked           you do not know the ids, or they change
 ///
-/// T is the range of the ids (highest - lowest, or highest for a policy that counts from 0), N their number.
+/// T is the range of the ids, highest - lowest; N their number.
 /// What is deliberately not shipped: a sorted array with binary search (look-up 50 to 90 ns at 1e5), a table whose
 /// lines keep neighbouring ids together (3x worse on blocks), epochs instead of clearing (look-up 1.3 to 1.6x).
 #pragma once
@@ -88,12 +89,15 @@ concept prefetchable = id_storage<Storage> && requires(const Storage& storage, t
     { storage.prefetch(id) } noexcept -> std::same_as<void>;
 };
 
-/// Ability: rebuild with several threads; every answer and every link as if built by one.
+/// Ability: rebuild with any executor, of which two are tried here; every answer and every link as if built by one
+/// thread.
 template <class Storage>
 concept parallel_rebuild =
     id_storage<Storage> &&
     requires(Storage& storage, std::span<const typename Storage::id_type> ids,
-             id_range<typename Storage::id_type> range, std::span<index_t> links, const threads& team) {
+             id_range<typename Storage::id_type> range, std::span<index_t> links, const this_thread& alone,
+             const threads& team) {
+        { storage.rebuild(ids, range, links, alone) } -> std::same_as<void>;
         { storage.rebuild(ids, range, links, team) } -> std::same_as<void>;
     };
 

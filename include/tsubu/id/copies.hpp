@@ -26,12 +26,12 @@ namespace tsubu {
 template <class Distance>
 [[nodiscard]] index_t closest_image(const same_id_links& same, index_t first, Distance&& distance) {
     if (first == absent) return absent;
+    const auto is_nan = [](const auto& value) { return value != value; };  // NOLINT(misc-redundant-expression)
     auto nearest = first;
     auto least = distance(first);
     for (auto k = same.next(first); k != absent; k = same.next(k)) {
         const auto d = distance(k);
-        // least != least: the distance so far was NaN, so any other is better.
-        if (d < least || (least != least && d == d)) {
+        if (d < least || (is_nan(least) && !is_nan(d))) {
             nearest = k;
             least = d;
         }

@@ -8,6 +8,7 @@
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
+#include <tsubu/id/detail/fill_absent.hpp>
 #include <tsubu/id/detail/gather.hpp>
 #include <tsubu/id/id_range.hpp>
 #include <tsubu/id/memory_limit.hpp>
@@ -49,8 +50,9 @@ namespace tsubu {
 /// Growth:        by assign at least doubling, within the memory limit; a rebuild that needs less than a quarter
 ///                gives memory back.
 /// Deterministic: yes, with any executor.
-/// Choose it when the ids fill their range: T / N up to 4 (2 above 8 MiB of table), or come in blocks.
-/// Do not when    ids are random in a wide range: from T / N = 8 on flat_storage is faster and smaller.
+/// Choose it when the ids fill their range: T / N up to 6, or 24 while the table is below 8 MiB (choose_table in
+///                adaptive_storage.hpp).
+/// Do not when    ids are random in a wide range: beyond those ratios flat_storage is faster and smaller.
 /// Source:        A2, A3, A5.
 template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>
 class dense_storage {
@@ -102,7 +104,6 @@ public:
     /// The same with several threads: each fills its own part of the table, so no two write the same entry.
     template <executor Executor>
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links, const Executor& on) {
-        // Starting the threads costs some 1e4 insertions.
         if (on.concurrency() < 2 || ids.size() < least_parallel_count) return rebuild(ids, range, links);
         prepare(ids.size(), range);
         try {
@@ -114,7 +115,8 @@ public:
         }
     }
 
-    /// O(1) inside the range, also if the id is new; outside, the table grows. Strong guarantee.
+    /// O(1) inside the range, also if the id is new; outside, the table grows.
+    /// @throws limit_error if it would pass the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         if (offset_of(id) >= table_.size()) grow(id);
         const auto offset = static_cast<std::size_t>(offset_of(id));
@@ -130,6 +132,7 @@ public:
     }
 
     /// Room for `count` ids without gaps; how much a rebuild needs depends on their range, which is not known yet.
+    /// @throws limit_error if that passes the memory limit. Strong guarantee.
     void reserve(std::size_t count) {
         if (count > table_.size()) {
             check("reserve", count - 1, count, count - 1);
@@ -163,7 +166,7 @@ private:
     using flags = buffer<unsigned char, Allocator>;
 
     static constexpr std::size_t block_size = 1024;  // entries: a page of memory per byte of touched_
-    static constexpr std::size_t least_parallel_count = std::size_t{1} << 16;
+    static constexpr std::size_t least_parallel_count = std::size_t{1} << 16;  // starting threads costs some 1e4 ids
     static constexpr std::uint64_t largest_id = static_cast<std::uint64_t>((std::numeric_limits<Id>::max)());
 
     // Ids below lowest_ and negative ones wrap to offsets past the end, because the table never reaches past the
@@ -215,7 +218,7 @@ private:
     void replace(std::size_t entries) {
         table fresh(entries, table_.get_allocator());
         flags fresh_touched(blocks_of(entries), touched_.get_allocator());
-        fill_absent(fresh.data(), entries);
+        detail::fill_absent(fresh.data(), entries);
         std::memset(fresh_touched.data(), 0, fresh_touched.size());
         table_ = std::move(fresh);
         touched_ = std::move(fresh_touched);
@@ -224,7 +227,7 @@ private:
     void regrow(unsigned_type lowest, std::size_t entries) {
         table fresh(entries, table_.get_allocator());
         flags fresh_touched(blocks_of(entries), touched_.get_allocator());
-        fill_absent(fresh.data(), entries);
+        detail::fill_absent(fresh.data(), entries);
         std::memset(fresh_touched.data(), 0, fresh_touched.size());
         const std::uint64_t shift = static_cast<unsigned_type>(lowest_ - lowest);
         for_touched_runs(0, touched_.size(), [&](std::size_t begin, std::size_t end) {
@@ -250,7 +253,7 @@ private:
             high = (std::max)(high, std::uint64_t{lowest_} + (table_.size() - 1));
         }
         check("assign", high - low, size_ + 1, wanted);
-        // Twice the old size, the slack on the side where the ids grow, as far as ids and limit go.
+        // Twice the old size, in whole blocks, the slack on the side where the ids grow, as far as ids and limit go.
         const std::uint64_t doubled = (std::min)(std::uint64_t{table_.size()} * 2, largest_id) | (block_size - 1);
         if (doubled > high - low && limit_.admits(bytes_of(doubled), size_ + 1)) {
             const auto slack = doubled - (high - low);
@@ -262,10 +265,6 @@ private:
         regrow(static_cast<unsigned_type>(low), static_cast<std::size_t>(high - low) + 1);
     }
 
-    static void fill_absent(index_t* entries, std::size_t count) noexcept {
-        static_assert(absent == -1, "filled bytewise");
-        std::memset(entries, 0xff, count * sizeof(index_t));
-    }
     // Calls visit(begin, end) in entries for each run of touched blocks within [first, last).
     template <class Visit>
     void for_touched_runs(std::size_t first, std::size_t last, const Visit& visit) const {
@@ -278,7 +277,7 @@ private:
     }
     void clear_blocks(std::size_t first, std::size_t last) noexcept {
         for_touched_runs(first, last, [this](std::size_t begin, std::size_t end) {
-            fill_absent(table_.data() + begin, end - begin);
+            detail::fill_absent(table_.data() + begin, end - begin);
         });
         if (last > first) std::memset(touched_.data() + first, 0, last - first);
     }
@@ -311,7 +310,7 @@ private:
             different += static_cast<std::uint32_t>(next) >> 31;  // 1 for absent, the only negative entry
         };
         std::size_t i = ids.size();
-        while (i % 4 != 0) insert(--i);
+        while (i % 4 != 0) insert(--i);  // four at a time, since compilers do not unroll at -O2
         for (; i != 0; i -= 4) {
             insert(i - 1);
             insert(i - 2);
@@ -333,7 +332,7 @@ private:
         on.run([&](std::size_t part) {
             clear_blocks(share(touched_.size(), part), share(touched_.size(), part + 1));
             const auto begin = share(links.size(), part);
-            if (!links.empty()) fill_absent(links.data() + begin, share(links.size(), part + 1) - begin);
+            if (!links.empty()) detail::fill_absent(links.data() + begin, share(links.size(), part + 1) - begin);
         });
         on.run([&](std::size_t part) {
             const auto first = share(touched_.size(), part);
@@ -354,7 +353,7 @@ private:
         for (std::size_t end = ids.size(); end > 0;) {
             const auto begin = end > run ? end - run : 0;
             std::size_t queued = 0;
-            for (std::size_t i = end; i-- > begin;) {  // no branch: whose an id is cannot be predicted
+            for (std::size_t i = end; i-- > begin;) {  // no branch: whose id it is cannot be predicted
                 queue[queued] = static_cast<index_t>(i);
                 queued += offset_of(ids[i]) - from < width ? 1U : 0U;
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// flat_storage: the general id table, 8 bytes per particle, whatever the ids.
+/// flat_storage: the general id table, 8 to 20 bytes per id, whatever the ids.
 /// How a line holds 16 ids in 64 bytes: detail/quotient_lines.hpp.
 #pragma once
 
@@ -11,32 +11,40 @@
 #include <tsubu/id/detail/quotient_build.hpp>
 #include <tsubu/id/detail/quotient_find.hpp>
 #include <tsubu/id/detail/quotient_plan.hpp>
+#include <tsubu/id/flat_lines.hpp>
 #include <tsubu/id/id_range.hpp>
 #include <tsubu/id/memory_limit.hpp>
 
 #include <algorithm>  // std::find, std::max, std::min
 #include <cstddef>    // std::size_t
-#include <cstdint>  // std::int64_t
-#include <memory>   // std::allocator
-#include <span>     // std::span
-#include <utility>  // std::exchange, std::move, std::swap
-#include <vector>   // std::vector
+#include <cstdint>    // std::int64_t
+#include <memory>     // std::allocator
+#include <span>       // std::span
+#include <utility>    // std::forward, std::swap
+#include <vector>     // std::vector
 
 namespace tsubu {
 
 /// The general table: open addressing in cache lines, ids told apart by what their place does not already say.
 ///
-/// Models id_storage, batched_lookup, prefetchable, parallel_rebuild.
-/// find       1 cache line; no branch depends on where in the line the id is, or whether
-/// rebuild    O(N) for every pattern of ids; from 2e6 ids on, or with several threads, dealt out into parts of the table
-/// assign     O(1) amortised; erase O(1): the slot is reused by the same id, or freed at the next rebuild or growth
-/// memory     8 | 16 | 20 bytes per id (narrow | wide | keyed), and while a dealt rebuild runs 8 | 16 | 16 more
-/// growth     geometric; the answers are deterministic, on any number of threads
-/// Choose it when: ids are sparse, strided, clustered, unknown. Do not when: ids fill their range (dense_storage).
+///     tsubu::id_map<tsubu::flat_storage<>> where;
 ///
-/// Strong guarantee, with one exception: a rebuild that fits the memory it has is done in place. Should eight hash
-/// multipliers in a row map these ids badly, and the memory for a larger table then be refused, the map is left empty.
-/// Source: design note in detail/quotient_lines.hpp.
+/// Concept:       id_storage, batched_lookup (AVX2, AVX-512), prefetchable, parallel_rebuild.
+/// Cost:          find one cache line, and no branch that depends on where in it the id is, or whether; rebuild O(N)
+/// for
+///                every pattern of ids, by direct insertion or, from 2e6 ids on and with several threads, dealt out
+///                into parts of the table; assign O(1) amortised; erase O(1).
+/// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines); while a dealt rebuild runs 8 | 16 | 16 more.
+/// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot of
+/// an
+///                erased id is taken by the same id again, or freed at the next rebuild or growth.
+/// Deterministic: yes, on any number of threads and with any instruction set.
+/// Choose it when ids are sparse, strided, clustered, or unknown.
+/// Do not when    ids fill their range: dense_storage is two to five times faster there.
+/// Source:        design note in detail/quotient_lines.hpp.
+///
+/// The strong guarantee has one far corner: a rebuild that fits the memory it has is done in place. Should eight hash
+/// multipliers in a row map these ids badly, and memory for a larger table then be refused, the map is left empty.
 template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>
 class flat_storage {
 public:
@@ -94,6 +102,7 @@ public:
         });
     }
 
+    /// @throws limit_error if the table needs more than the memory limit.
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links) {
         rebuild(ids, range, links, this_thread{});
     }
@@ -103,7 +112,8 @@ public:
         const auto base_of_keys = [&] {
             return detail::value_beside(static_cast<std::uint64_t>(range.lowest),
                                         static_cast<std::uint64_t>(range.highest), [&](std::uint64_t value) {
-                                            return std::find(ids.begin(), ids.end(), static_cast<Id>(value)) != ids.end();
+                                            return std::find(ids.begin(), ids.end(), static_cast<Id>(value)) !=
+                                                   ids.end();
                                         });
         };
         auto plan = detail::plan_lines({.count = ids.size(),
@@ -118,10 +128,11 @@ public:
         }
     }
 
+    /// @throws limit_error if the table must grow past the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         const auto key = static_cast<std::uint64_t>(id);
-        while (!(may_hold(key) && detail::index_fits(table_, index) &&
-                 (used_ < room_ || find(id) != absent) && insert(key, index)))
+        while (!(may_hold(key) && detail::index_fits(table_, index) && (used_ < room_ || find(id) != absent) &&
+                 insert(key, index)))
             make_room(key, index);
     }
     bool erase(Id id) noexcept {
@@ -130,15 +141,16 @@ public:
             if (!table_.may_hold<Layout>(x)) return false;
             const auto at = table_.locate<Layout>(x);
             const auto end = detail::walk<Layout>(table_, at.place, at.tag, table_.lines + detail::spill_lines);
-            if (end.what == detail::search_end::at::match) {
+            if (end.what == detail::search_end::outcome::match) {
                 const bool was_here = detail::index_at<Layout>(table_, end.place) != 0;
                 detail::write_slot<Layout>(table_, end.place,
-                                           static_cast<typename Layout::slot_type>(at.tag + end.probe * table_.tag_step),
+                                           static_cast<typename Layout::slot_type>(at.tag +
+                                                                                   end.probe * table_.tag_step),
                                            0);
                 size_ -= was_here ? 1 : 0;
                 return was_here;
             }
-            if (end.what == detail::search_end::at::boundary)
+            if (end.what == detail::search_end::outcome::boundary)
                 for (auto& entry : stash_.entries())
                     if (entry.place == at.place && entry.tag == at.tag && entry.index_plus_1 != 0) {
                         entry.index_plus_1 = 0;
@@ -166,9 +178,10 @@ public:
     template <class Each>
     void for_each(Each&& each) const {
         with_lines([&]<class Layout>(Layout) {
-            detail::for_each_entry<Layout>(table_, stash_.entries(), [&](std::uint64_t key, std::uint32_t index_plus_1) {
-                each(static_cast<Id>(key), static_cast<index_t>(index_plus_1) - 1);
-            });
+            detail::for_each_entry<Layout>(table_, stash_.entries(),
+                                           [&](std::uint64_t key, std::uint32_t index_plus_1) {
+                                               each(static_cast<Id>(key), static_cast<index_t>(index_plus_1) - 1);
+                                           });
         });
     }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -186,7 +199,7 @@ private:
     using table_memory = buffer<detail::cache_line, Allocator>;
     using spills = detail::spill_list<Allocator>;
 
-    static constexpr std::size_t dealing_threshold = 2'000'000;   // below, direct insertion is as fast on one thread
+    static constexpr std::size_t dealing_threshold = 2'000'000;  // below, direct insertion is as fast on one thread
     static constexpr std::size_t threading_threshold = 1 << 14;  // below, starting threads takes longer than inserting
 
     template <class Call>
@@ -209,9 +222,7 @@ private:
     [[nodiscard]] bool may_hold(std::uint64_t key) const noexcept {
         return with_lines([&]<class Layout>(Layout) { return table_.may_hold<Layout>(key - table_.base); });
     }
-    [[nodiscard]] bool exceeds_cache() const noexcept {
-        return memory_.memory_bytes() > detail::prefetch_threshold;
-    }
+    [[nodiscard]] bool exceeds_cache() const noexcept { return memory_.memory_bytes() > detail::prefetch_threshold; }
     void swap(flat_storage& other) noexcept {
         memory_.swap(other.memory_);
         std::swap(stash_, other.stash_);
@@ -232,8 +243,12 @@ private:
         const auto needed = detail::memory_lines(plan.table, plan.lines);
         // Memory is kept while it is not far too large: 4 times is what a hole in the particle count may leave.
         const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || memory_.size() <= reserved_);
-        if (!keep) limit_.check("flat_storage", needed * 64, ids.size(), plan.demand.lowest + plan.demand.extent, "raise the memory_limit");
-        table_memory fresh = keep ? table_memory(memory_.get_allocator()) : table_memory(needed, memory_.get_allocator());
+        if (!keep)
+            limit_.check("flat_storage::rebuild", needed * sizeof(detail::cache_line), ids.size(),
+                         plan.demand.lowest + plan.demand.extent,
+                         "raise the memory_limit, or spread the ids over more ranks");
+        table_memory fresh =
+            keep ? table_memory(memory_.get_allocator()) : table_memory(needed, memory_.get_allocator());
         spills fresh_stash(memory_.get_allocator());
         const bool keep_stash = stash_.capacity() >= plan.stash_capacity;
         if (!keep_stash) fresh_stash.reserve(plan.stash_capacity);
@@ -256,8 +271,8 @@ private:
                 adopt();
                 detail::with_kernels([&]<class Kernels>(Kernels) {
                     const auto fill = [&](const auto& team) {
-                        return parts.template fill<Kernels>(table_, table_.overflow + detail::overflow_words(table_), stash_, ids, links,
-                                                            team);
+                        return parts.template fill<Kernels>(table_, table_.overflow + detail::overflow_words(table_),
+                                                            stash_, ids, links, team);
                     };
                     repeated = threaded ? fill(on) : fill(this_thread{});
                 });
@@ -284,7 +299,8 @@ private:
             const auto former = detail::find_beyond<Layout>(table_, stash_.entries(), at.place, at.tag);
             detail::line_filler<Layout> filler(table_, table_.lines + detail::spill_lines, nullptr);
             if (!filler.insert(at.place, at.tag, index_plus_1) &&
-                !detail::insert_into_stash(filler, stash_, {at.tag, static_cast<std::uint32_t>(at.place), index_plus_1}))
+                !detail::insert_into_stash(filler, stash_,
+                                           {at.tag, static_cast<std::uint32_t>(at.place), index_plus_1}))
                 return false;
             if (former == absent) ++size_;
             if (filler.repeated() == 0) ++used_;
@@ -307,20 +323,23 @@ private:
         for (const auto& entry : entries) greatest = (std::max)(greatest, std::uint64_t{entry.index_plus_1});
         // Twice the greatest index: indices that count upwards do not lay the table out anew each time.
         greatest = (std::min)(2 * greatest + 64, std::uint64_t{max_index_count} - 1);
-        auto plan = detail::plan_lines({.count = (std::max)(count, std::size_t{16}),
-                                        .lowest = lowest,
-                                        .extent = extent,
-                                        .greatest_index = greatest,
-                                        .multiplier = multiplier_},
-                                       [&] {
-                                           return detail::value_beside(lowest, lowest + extent, [&](std::uint64_t value) {
-                                               return find(static_cast<Id>(value)) != absent || value == new_key;
-                                           });
-                                       });
+        auto plan =
+            detail::plan_lines({.count = (std::max)(count, std::size_t{16}),
+                                .lowest = lowest,
+                                .extent = extent,
+                                .greatest_index = greatest,
+                                .multiplier = multiplier_},
+                               [&] {
+                                   return detail::value_beside(lowest, lowest + extent, [&](std::uint64_t value) {
+                                       return find(static_cast<Id>(value)) != absent || value == new_key;
+                                   });
+                               });
         for (std::uint32_t attempt = 0;; ++attempt) {
             if (attempt > 0) detail::next_attempt(plan, ++multiplier_, attempt);
             const auto needed = detail::memory_lines(plan.table, plan.lines);
-            limit_.check("flat_storage", needed * 64, count, plan.demand.lowest + plan.demand.extent, "raise the memory_limit");
+            limit_.check("flat_storage::assign", needed * sizeof(detail::cache_line), count,
+                         plan.demand.lowest + plan.demand.extent,
+                         "raise the memory_limit, or spread the ids over more ranks");
             flat_storage larger(limit_, memory_.get_allocator());
             larger.memory_ = table_memory(needed, memory_.get_allocator());
             larger.stash_.reserve(plan.stash_capacity);
@@ -343,9 +362,10 @@ private:
         std::vector<detail::id_entry> entries;
         entries.reserve(size_);
         with_lines([&]<class Layout>(Layout) {
-            detail::for_each_entry<Layout>(table_, stash_.entries(), [&](std::uint64_t key, std::uint32_t index_plus_1) {
-                entries.push_back({key, index_plus_1});
-            });
+            detail::for_each_entry<Layout>(table_, stash_.entries(),
+                                           [&](std::uint64_t key, std::uint32_t index_plus_1) {
+                                               entries.push_back({key, index_plus_1});
+                                           });
         });
         return entries;
     }
@@ -362,12 +382,12 @@ private:
     spills stash_;
     detail::line_table table_ = detail::no_lines();
     flat_lines lines_ = flat_lines::narrow;
-    std::size_t size_ = 0;       // ids present
-    std::size_t used_ = 0;       // slots that are not empty: present ids and erased ones
-    std::size_t room_ = 0;       // used_ may reach this before the table grows
-    std::size_t reserved_ = 0;   // cache lines that reserve() asked for: kept however few ids come
+    std::size_t size_ = 0;          // ids present
+    std::size_t used_ = 0;          // slots that are not empty: present ids and erased ones
+    std::size_t room_ = 0;          // used_ may reach this before the table grows
+    std::size_t reserved_ = 0;      // cache lines that reserve() asked for: kept however few ids come
     std::uint32_t multiplier_ = 0;  // which one of the sequence; it is remembered between rebuilds
-    [[no_unique_address]] memory_limit limit_;
+    memory_limit limit_{};
 };
 static_assert(id_storage<flat_storage<>>);
 static_assert(batched_lookup<flat_storage<>>);

@@ -26,7 +26,7 @@ namespace tsubu {
 ///     tsubu::id_map<> where;
 ///     where.rebuild(ids);                                     // all N ids, owned first
 ///     if (auto i = where.find(901'417); i != tsubu::absent) radius[i] *= 1.01;
-///     where.find(partner_ids, partner_indices);               // many at once: 2 to 4 times faster
+///     where.find(partner_ids, partner_indices);               // many at once: several times faster
 ///
 /// The table is a policy; this class adds the vocabulary and the checks.
 ///
@@ -91,7 +91,7 @@ public:
     ///              parallel_rebuild builds on the calling thread.
     /// @throws input_error  for a negative id: names its index and value
     /// @throws limit_error  for N >= 2^31, or a table past the memory limit of the policy
-    /// Strong guarantee.
+    /// Strong guarantee (for the one far corner of it: flat_storage).
     /// Source: A4, A12, A13.
     void rebuild(std::span<const id_type> ids) { rebuild(ids, this_thread{}); }
     void rebuild(std::span<const id_type> ids, same_id_links& same) { rebuild(ids, same, this_thread{}); }
@@ -152,6 +152,7 @@ public:
         check_count("id_map::reserve", count);
         storage_.reserve(count);
     }
+    /// Forgets every id; links are not touched.
     void clear() noexcept { storage_.clear(); }
     /// Number of different ids.
     [[nodiscard]] std::size_t size() const noexcept { return storage_.size(); }
@@ -189,10 +190,10 @@ private:
             storage_.rebuild(ids, range, links);
         }
     }
-    // Does index `at` hold this id?
-    [[nodiscard]] static bool is_copy(std::span<const id_type> ids, id_type id, index_t at) noexcept {
+    [[nodiscard]] static bool holds(std::span<const id_type> ids, index_t at, id_type id) noexcept {
         return static_cast<std::size_t>(at) < ids.size() && ids[static_cast<std::size_t>(at)] == id;
     }
+    // Take one copy out of the chain of its id, and put one in at its place.
     void unlink(id_type id, index_t index, std::span<index_t> links);
     void link(std::span<const id_type> after, index_t index, std::span<index_t> links);
 
@@ -235,7 +236,7 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
             storage_.assign(before[0], index);
         }
     } catch (...) {
-        for (const auto i : changed)  // none of the former ids has an index that changed to its own id
+        for (const auto i : changed)  // no former id was at such an i: before[i] is not after[i]
             if (const auto k = static_cast<std::size_t>(i); k < after.size() && find(after[k]) == i)
                 storage_.erase(after[k]);
         same.links_.resize(before.size());
@@ -248,7 +249,7 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
         if (const auto k = static_cast<std::size_t>(i); k < after.size()) link(after, i, links);
     for (const auto i : changed)
         if (const auto k = static_cast<std::size_t>(i); k < before.size())
-            if (const auto at = find(before[k]); at != absent && !is_copy(after, before[k], at)) erase(before[k]);
+            if (const auto at = find(before[k]); at != absent && !holds(after, at, before[k])) erase(before[k]);
     same.links_.resize(after.size());
 }
 
@@ -276,7 +277,7 @@ void id_map<Storage>::link(std::span<const id_type> after, index_t index, std::s
     const auto id = after[static_cast<std::size_t>(index)];
     auto& own = links[static_cast<std::size_t>(index)];
     auto at = storage_.find(id);
-    if (at == index || !is_copy(after, id, at)) {  // the first copy of an id that was inserted, or had lost all
+    if (at == index || !holds(after, at, id)) {  // the first copy of an id that was inserted, or had lost all
         own = absent;
         if (at != index) storage_.assign(id, index);
         return;

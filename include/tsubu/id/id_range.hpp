@@ -23,9 +23,10 @@ struct id_range {
     [[nodiscard]] constexpr bool contains(Id id) const noexcept { return lowest <= id && id <= highest; }
     /// highest - lowest, exact for every pair. Precondition: not empty().
     [[nodiscard]] constexpr std::uint64_t extent() const noexcept {
-        using U = detail::unsigned_id<Id>;
-        return static_cast<U>(static_cast<U>(highest) - static_cast<U>(lowest));
+        using unsigned_type = detail::unsigned_id<Id>;
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(highest) - static_cast<unsigned_type>(lowest));
     }
+    /// The least range that holds this one and the id.
     [[nodiscard]] constexpr id_range with(Id id) const noexcept {
         return {(std::min)(lowest, id), (std::max)(highest, id)};
     }
@@ -36,12 +37,13 @@ struct id_range {
 /// Complexity: one pass; four independent minima and maxima, so that it runs at the speed of the loads.
 template <particle_id Id>
 [[nodiscard]] constexpr id_range<Id> range_of(std::span<const Id> ids) noexcept {
-    id_range<Id> lane[4];
+    constexpr std::size_t lanes = 4;
+    id_range<Id> lane[lanes];
     std::size_t i = 0;
-    for (; i + 4 <= ids.size(); i += 4)
-        for (std::size_t k = 0; k < 4; ++k) lane[k] = lane[k].with(ids[i + k]);
+    for (; i + lanes <= ids.size(); i += lanes)
+        for (std::size_t k = 0; k < lanes; ++k) lane[k] = lane[k].with(ids[i + k]);
     for (; i < ids.size(); ++i) lane[0] = lane[0].with(ids[i]);
-    for (std::size_t k = 1; k < 4; ++k) {
+    for (std::size_t k = 1; k < lanes; ++k) {
         lane[0].lowest = (std::min)(lane[0].lowest, lane[k].lowest);
         lane[0].highest = (std::max)(lane[0].highest, lane[k].highest);
     }

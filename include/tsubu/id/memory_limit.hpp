@@ -23,6 +23,7 @@ class memory_limit {
 public:
     /// 64 x the bytes of the chained style: the bound that the specification sets as default (A5).
     static constexpr std::uint64_t chained_multiple = 64;
+    /// Below this the default refuses nothing.
     static constexpr std::uint64_t floor_bytes = std::uint64_t{16} << 20;
 
     constexpr memory_limit() noexcept = default;
@@ -34,13 +35,15 @@ public:
         const std::uint64_t chained = chained_multiple * chained_bytes_per_id * count;
         return chained < floor_bytes ? floor_bytes : chained;
     }
+    /// May a map of `count` ids hold this many bytes?
     [[nodiscard]] constexpr bool admits(std::uint64_t needed, std::size_t count) const noexcept {
         return needed <= bytes(count);
     }
-    /// @throws limit_error that names the policy, the id that forces the size, the bytes, and what to use instead.
-    void check(const char* policy, std::uint64_t needed, std::size_t count, std::uint64_t id, const char* instead) const {
+    /// @throws limit_error that names the place, the id that forces the size, the bytes, and what to use instead.
+    void check(const char* where, std::uint64_t needed, std::size_t count, std::uint64_t id,
+               const char* instead) const {
         if (admits(needed, count)) return;
-        detail::raise<limit_error>(policy,
+        detail::raise<limit_error>(where,
                                    "id " + std::to_string(id) + " among " + std::to_string(count) +
                                        " ids needs a table of " + std::to_string(needed) + " bytes, the limit is " +
                                        std::to_string(bytes(count)),

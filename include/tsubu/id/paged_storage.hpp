@@ -7,6 +7,7 @@
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
+#include <tsubu/id/detail/fill_absent.hpp>
 #include <tsubu/id/detail/gather.hpp>
 #include <tsubu/id/id_range.hpp>
 #include <tsubu/id/memory_limit.hpp>
@@ -115,7 +116,7 @@ public:
         size_ = ids.size() - repeated;
     }
 
-    /// Strong guarantee.
+    /// @throws limit_error if directory or pages would pass the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         if (place_of(id) >= directory_.size()) widen(id);
         const auto place = static_cast<std::size_t>(place_of(id));
@@ -138,6 +139,7 @@ public:
     }
 
     /// Pages for `count` ids without gaps; how many a rebuild needs depends on the ids.
+    /// @throws limit_error if they pass the memory limit. Strong guarantee.
     void reserve(std::size_t count) {
         const auto pages = static_cast<std::size_t>(count >> Options.page_bits) + 3;  // both ends, and page 0
         const auto reachable = static_cast<std::size_t>((std::min)(std::uint64_t{pages}, all_pages));
@@ -160,7 +162,8 @@ public:
         for (std::size_t page = 1; page < used_; ++page)
             for (std::size_t k = 0; k < page_size; ++k)
                 if (const index_t index = pool_[(page << Options.page_bits) + k]; index != absent)
-                    each(static_cast<Id>(static_cast<unsigned_type>(((first_ + places_[page]) << Options.page_bits) + k)),
+                    each(static_cast<Id>(
+                             static_cast<unsigned_type>(((first_ + places_[page]) << Options.page_bits) + k)),
                          index);
     }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -212,14 +215,10 @@ private:
         limit_.check(where.c_str(), bytes_of(places, pages), count, id,
                      "use flat_storage, whose size does not depend on the range, or raise the limit");
     }
-    static void fill_absent(index_t* entries, std::size_t count) noexcept {
-        static_assert(absent == -1, "filled bytewise");
-        std::memset(entries, 0xff, count * sizeof(index_t));
-    }
 
     // Precondition: used_ < page_count().
     void take_page(std::size_t place) noexcept {
-        fill_absent(pool_.data() + (used_ << Options.page_bits), page_size);
+        detail::fill_absent(pool_.data() + (used_ << Options.page_bits), page_size);
         places_[used_] = place;
         directory_[place] = static_cast<std::uint32_t>(used_++);
     }
@@ -289,7 +288,7 @@ private:
             try {
                 replace_pool(pages);
             } catch (...) {
-                // As above.
+                // Here as well: the pool that we have is large enough.
             }
         }
     }
@@ -302,7 +301,7 @@ private:
     void replace_pool(std::size_t pages) {
         place_buffer fresh_places(pages, places_.get_allocator());
         index_buffer fresh_pool(pages << Options.page_bits, pool_.get_allocator());
-        fill_absent(fresh_pool.data(), page_size);
+        detail::fill_absent(fresh_pool.data(), page_size);
         places_ = std::move(fresh_places);
         pool_ = std::move(fresh_pool);
     }
@@ -310,7 +309,7 @@ private:
     void regrow_pool(std::size_t pages) {
         place_buffer fresh_places(pages, places_.get_allocator());
         index_buffer fresh_pool(pages << Options.page_bits, pool_.get_allocator());
-        fill_absent(fresh_pool.data(), page_size);
+        detail::fill_absent(fresh_pool.data(), page_size);
         if (used_ > 1) {
             std::memcpy(fresh_places.data(), places_.data(), used_ * sizeof(std::size_t));
             std::memcpy(fresh_pool.data(), pool_.data(), (used_ << Options.page_bits) * sizeof(index_t));

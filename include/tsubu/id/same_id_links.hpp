@@ -13,7 +13,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 
-#include <cstddef>   // std::size_t
+#include <cstddef>   // std::ptrdiff_t, std::size_t
 #include <iterator>  // std::default_sentinel_t, std::forward_iterator_tag
 #include <span>      // std::span
 #include <vector>    // std::vector
@@ -88,6 +88,7 @@ public:
                       "same_id_links::images: no such index; rebuild the links with the ids");
         return {links_.data(), first};
     }
+    /// next(i) for every index i.
     [[nodiscard]] std::span<const index_t> links() const noexcept { return links_; }
     [[nodiscard]] std::size_t size() const noexcept { return links_.size(); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return links_.capacity() * sizeof(index_t); }

@@ -14,7 +14,7 @@ namespace tsubu {
 inline constexpr std::uint64_t chained_least_capacity = 1000;
 
 /// What the chained style holds per id with 64-bit ids: 2 pool nodes of 16 bytes and 2 bucket heads of 4. [bytes]
-inline constexpr std::uint64_t chained_bytes_per_id = 2 * (16 + 4);
+inline constexpr std::uint64_t chained_bytes_per_id = std::uint64_t{2} * (16 + 4);
 
 /// Nodes in the pool of the chained style: max(1000, 2 max(N, ceil(N_total / P))).
 ///

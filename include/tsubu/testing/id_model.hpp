@@ -6,7 +6,7 @@
 #include <tsubu/core/types.hpp>
 
 #include <algorithm>  // std::sort, std::lower_bound
-#include <cstddef>    // std::size_t
+#include <cstddef>    // std::ptrdiff_t, std::size_t
 #include <span>       // std::span
 #include <vector>     // std::vector
 

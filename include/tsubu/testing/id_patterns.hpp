@@ -35,7 +35,7 @@ enum class id_pattern {
 };
 inline constexpr std::size_t id_pattern_count = static_cast<std::size_t>(id_pattern::extremes) + 1;
 
-[[nodiscard]] constexpr const char* name(id_pattern pattern) noexcept {
+[[nodiscard]] constexpr const char* name_of(id_pattern pattern) noexcept {
     constexpr const char* names[id_pattern_count] = {"lattice",     "equal",         "repeated",     "blocks",
                                                      "sparse",      "stride_1009",   "stride_32771", "stride_65536",
                                                      "stride_2_32", "stride_golden", "bit_reversed", "rank_high",
@@ -43,8 +43,8 @@ inline constexpr std::size_t id_pattern_count = static_cast<std::size_t>(id_patt
     return names[static_cast<std::size_t>(pattern)];
 }
 
-/// `count` ids of this pattern, in increasing order of their making or shuffled, with or without repeated ids:
-/// the stream decides. Values that the type cannot hold are taken modulo its range, never negative.
+/// `count` ids of this pattern, in the order of their making or shuffled, with or without repeated ids: the stream
+/// decides. Values that the type cannot hold are taken modulo its range, never negative.
 template <particle_id Id>
 [[nodiscard]] std::vector<Id> make_ids(id_pattern pattern, std::size_t count, random_stream& random) {
     constexpr auto highest = static_cast<std::uint64_t>((std::numeric_limits<Id>::max)());
@@ -73,7 +73,7 @@ template <particle_id Id>
             case id_pattern::stride_32771: value = counter * 32771; break;
             case id_pattern::stride_65536: value = counter << 16; break;
             case id_pattern::stride_2_32: value = counter << 32; break;
-            case id_pattern::stride_golden: value = counter * 0x9e3779b97f4a7c15U >> (64 - digits); break;
+            case id_pattern::stride_golden: value = counter * golden_stride >> (64 - digits); break;
             case id_pattern::bit_reversed:
                 for (int bit = 0; bit < digits; ++bit) value |= (counter >> bit & 1) << (digits - 1 - bit);
                 break;

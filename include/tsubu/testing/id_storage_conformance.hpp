@@ -17,7 +17,7 @@
 #include <tsubu/testing/throwing_allocator.hpp>
 
 #include <concepts>     // std::constructible_from
-#include <cstddef>      // std::size_t
+#include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::uint64_t
 #include <string_view>  // std::string_view
 #include <type_traits>  // std::remove_reference_t
@@ -28,7 +28,7 @@ namespace tsubu::testing {
 ///
 /// @param seed       same seed, same run, on every machine
 /// @param steps      random rebuilds; 10 000 take about a second with optimisation
-/// @param check      called as check(bool kept, std::string_view law), thousands of times per step
+/// @param check      called as check(bool kept, std::string_view law), many times per step
 /// @param prototype  an empty storage as it is to be configured: every storage of the run is a copy of it
 /// Complexity: sizes from 0 to 4100 ids, mostly below 64.
 template <id_storage Storage, class Check>

@@ -423,7 +423,7 @@ TEST_CASE("H1: patterned ids cost the default no more memory, and mixed no longe
     const auto pattern = GENERATE(id_pattern::stride_1009, id_pattern::stride_32771, id_pattern::stride_65536,
                                   id_pattern::stride_2_32, id_pattern::stride_golden, id_pattern::bit_reversed,
                                   id_pattern::rank_high, id_pattern::rank_low, id_pattern::billions);
-    INFO(testing::name(pattern));
+    INFO(testing::name_of(pattern));
     random_stream random(21);
     constexpr std::size_t count = 40'000;
     const auto ids = testing::make_ids<std::int64_t>(pattern, count, random);

@@ -377,3 +377,26 @@ TEMPLATE_LIST_TEST_CASE("update without memory leaves map and links as they were
         if (!refused) break;
     }
 }
+
+TEST_CASE("an update with the wrong ids before leaves no chain that is a cycle", "[id][id_map][A13]") {
+    std::vector<std::int64_t> ids(40);
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 100 + static_cast<std::int64_t>(i);
+    ids[0] = ids[5] = 7;
+    id_map<flat_storage<>> map;
+    same_id_links same;
+    map.rebuild(ids, same);
+    auto wrong = ids;
+    wrong[5] = 999;  // so index 5 stays in the chain of 7, and is to be linked into it again
+    map.update(wrong, ids, same);
+    const auto links = same.links();
+    bool upwards = true;
+    for (std::size_t i = 0; i < links.size(); ++i)
+        upwards = upwards && (links[i] == absent || links[i] > static_cast<index_t>(i));
+    CHECK(upwards);
+
+    wrong = ids;
+    wrong[0] = 12'345;  // an id that is not in the map
+    map.update(wrong, wrong, same);
+    CHECK(map.find(12'345) == absent);
+    CHECK(map.size() == 39);
+}

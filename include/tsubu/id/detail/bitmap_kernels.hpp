@@ -38,8 +38,8 @@ struct bitmap_window {
     unsigned_id<Id> first;
 
     [[nodiscard]] std::uint64_t word_of(Id id) const noexcept {
-        using U = unsigned_id<Id>;
-        return static_cast<U>(static_cast<U>(static_cast<U>(id) >> 6) - first);
+        using unsigned_type = unsigned_id<Id>;
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(static_cast<unsigned_type>(id) >> 6) - first);
     }
     /// Place in the pool, 0 if the bit is not set. Precondition: word_of(id) < count.
     template <bool Native>
@@ -56,10 +56,11 @@ template <bool Native, particle_id Id>
 [[gnu::always_inline]] inline void bitmap_find(const bitmap_window<Id>& map, const index_t* pool, const Id* ids,
                                                index_t* out, std::size_t n) noexcept {
     for (std::size_t k = 0; k < n; ++k) {
-        using U = unsigned_id<Id>;
+        using unsigned_type = unsigned_id<Id>;
         // Ids outside look at the first id of the window, and their answer is dropped: no branch.
         const bool inside = map.word_of(ids[k]) < map.count;
-        const auto asked = static_cast<Id>(inside ? static_cast<U>(ids[k]) : static_cast<U>(map.first << 6));
+        const auto asked =
+            static_cast<Id>(inside ? static_cast<unsigned_type>(ids[k]) : static_cast<unsigned_type>(map.first << 6));
         const index_t found = pool[map.template place_of<Native>(asked)];
         out[k] = inside ? found : absent;
     }
@@ -89,38 +90,22 @@ template <bool Native, particle_id Id>
     }
 }
 
-template <particle_id Id>
-void bitmap_find_portable(const bitmap_window<Id>& map, const index_t* pool, const Id* ids, index_t* out,
-                          std::size_t n) noexcept {
-    bitmap_find<false>(map, pool, ids, out, n);
-}
-inline std::uint32_t bitmap_number_portable(const std::uint64_t* words, std::uint32_t* starts,
-                                            std::size_t count) noexcept {
-    return bitmap_number<false>(words, starts, count);
-}
-template <particle_id Id>
-void bitmap_insert_portable(const bitmap_window<Id>& map, index_t* pool, const Id* ids, index_t* links,
-                            std::size_t n) noexcept {
-    bitmap_insert<false>(map, pool, ids, links, n);
-}
-
 #if defined(__x86_64__) && defined(__GNUC__)
 
 template <particle_id Id>
-__attribute__((target("popcnt,bmi,bmi2,avx2"))) void bitmap_find_avx2(const bitmap_window<Id>& map,
-                                                                      const index_t* pool, const Id* ids, index_t* out,
-                                                                      std::size_t n) noexcept {
+[[gnu::target("popcnt,bmi,bmi2,avx2")]] void bitmap_find_avx2(const bitmap_window<Id>& map, const index_t* pool,
+                                                              const Id* ids, index_t* out, std::size_t n) noexcept {
     bitmap_find<true>(map, pool, ids, out, n);
 }
-__attribute__((target("popcnt,bmi,bmi2,avx2"))) inline std::uint32_t bitmap_number_avx2(const std::uint64_t* words,
-                                                                                        std::uint32_t* starts,
-                                                                                        std::size_t count) noexcept {
+[[gnu::target("popcnt,bmi,bmi2,avx2")]] inline std::uint32_t bitmap_number_avx2(const std::uint64_t* words,
+                                                                                std::uint32_t* starts,
+                                                                                std::size_t count) noexcept {
     return bitmap_number<true>(words, starts, count);
 }
 template <particle_id Id>
-__attribute__((target("popcnt,bmi,bmi2,avx2"))) void bitmap_insert_avx2(const bitmap_window<Id>& map, index_t* pool,
-                                                                        const Id* ids, index_t* links,
-                                                                        std::size_t n) noexcept {
+[[gnu::target("popcnt,bmi,bmi2,avx2")]] void bitmap_insert_avx2(const bitmap_window<Id>& map, index_t* pool,
+                                                                const Id* ids, index_t* links,
+                                                                std::size_t n) noexcept {
     bitmap_insert<true>(map, pool, ids, links, n);
 }
 
@@ -139,7 +124,7 @@ void bitmap_find(instruction_set set, const bitmap_window<Id>& map, const index_
 #else
     static_cast<void>(set);
 #endif
-    bitmap_find_portable(map, pool, ids, out, n);
+    bitmap_find<false>(map, pool, ids, out, n);
 }
 inline std::uint32_t bitmap_number(instruction_set set, const std::uint64_t* words, std::uint32_t* starts,
                                    std::size_t count) noexcept {
@@ -148,7 +133,7 @@ inline std::uint32_t bitmap_number(instruction_set set, const std::uint64_t* wor
 #else
     static_cast<void>(set);
 #endif
-    return bitmap_number_portable(words, starts, count);
+    return bitmap_number<false>(words, starts, count);
 }
 template <particle_id Id>
 void bitmap_insert(instruction_set set, const bitmap_window<Id>& map, index_t* pool, const Id* ids, index_t* links,
@@ -158,7 +143,7 @@ void bitmap_insert(instruction_set set, const bitmap_window<Id>& map, index_t* p
 #else
     static_cast<void>(set);
 #endif
-    bitmap_insert_portable(map, pool, ids, links, n);
+    bitmap_insert<false>(map, pool, ids, links, n);
 }
 
 }  // namespace tsubu::detail

@@ -3,7 +3,7 @@
 /// Many look-ups at once in a flat or a paged table: AVX2 and AVX-512 kernels beside their portable twins.
 ///
 /// Every kernel of a family writes the same answers; the instruction set is chosen by the caller at run time, so the
-/// loops live inside the functions that carry the target attribute (a template cannot be inlined into from outside).
+/// loops live inside the functions that carry the target attribute (from outside, intrinsics could not be inlined).
 /// No branch depends on an id: on half misses a mispredicted branch would cost more than the look-up.
 #pragma once
 
@@ -39,13 +39,13 @@ struct paged_window {
 
 template <particle_id Id>
 void gather_portable(const flat_window<Id>& table, const Id* ids, index_t* out, std::size_t n) noexcept {
-    using U = unsigned_id<Id>;
+    using unsigned_type = unsigned_id<Id>;
     if (table.count == 0) {  // then there is no entry 0 to read instead
         for (std::size_t k = 0; k < n; ++k) out[k] = absent;
         return;
     }
     for (std::size_t k = 0; k < n; ++k) {
-        const std::uint64_t offset = static_cast<U>(static_cast<U>(ids[k]) - table.lowest);
+        const std::uint64_t offset = static_cast<unsigned_type>(static_cast<unsigned_type>(ids[k]) - table.lowest);
         const bool inside = offset < table.count;
         const index_t found = table.entries[inside ? offset : 0];
         out[k] = inside ? found : absent;
@@ -54,15 +54,16 @@ void gather_portable(const flat_window<Id>& table, const Id* ids, index_t* out, 
 
 template <particle_id Id>
 void gather_portable(const paged_window<Id>& table, const Id* ids, index_t* out, std::size_t n) noexcept {
-    using U = unsigned_id<Id>;
+    using unsigned_type = unsigned_id<Id>;
     if (table.count == 0) {
         for (std::size_t k = 0; k < n; ++k) out[k] = absent;
         return;
     }
     const std::uint64_t mask = (std::uint64_t{1} << table.bits) - 1;
     for (std::size_t k = 0; k < n; ++k) {
-        const auto id = static_cast<U>(ids[k]);
-        const std::uint64_t page = static_cast<U>(static_cast<U>(id >> table.bits) - table.first);
+        const auto id = static_cast<unsigned_type>(ids[k]);
+        const std::uint64_t page =
+            static_cast<unsigned_type>(static_cast<unsigned_type>(id >> table.bits) - table.first);
         const bool inside = page < table.count;
         const std::uint64_t held = inside ? table.directory[inside ? page : 0] : 0;
         out[k] = table.pool[(held << table.bits) | (id & mask)];
@@ -71,9 +72,9 @@ void gather_portable(const paged_window<Id>& table, const Id* ids, index_t* out,
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-// Four or eight ids as unsigned 64-bit lanes, after subtracting in the width of the id.
+// Four ids in lanes of 64 bits, narrower ones with zeros above.
 template <particle_id Id>
-__attribute__((target("avx2"))) inline __m256i lanes_avx2(const Id* ids) noexcept {
+[[gnu::target("avx2")]] inline __m256i lanes_avx2(const Id* ids) noexcept {
     if constexpr (sizeof(Id) == 8)
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
     else
@@ -82,26 +83,28 @@ __attribute__((target("avx2"))) inline __m256i lanes_avx2(const Id* ids) noexcep
 
 // a - b in the width of the id: for 32 bits the upper halves are 0 in both and must stay 0.
 template <particle_id Id>
-__attribute__((target("avx2"))) inline __m256i subtract_avx2(__m256i a, __m256i b) noexcept {
+[[gnu::target("avx2")]] inline __m256i subtract_avx2(__m256i a, __m256i b) noexcept {
     if constexpr (sizeof(Id) == 8)
         return _mm256_sub_epi64(a, b);
     else
         return _mm256_sub_epi32(a, b);
 }
 
+inline constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
+
 // All bits of lane k (32 bits) set where a[k] < b[k] (64 bits; b with its sign bit flipped: AVX2 compares signed).
-__attribute__((target("avx2"))) inline __m128i below_avx2(__m256i a, __m256i flipped_b) noexcept {
-    const __m256i sign = _mm256_set1_epi64x(static_cast<long long>(std::uint64_t{1} << 63));
+[[gnu::target("avx2")]] inline __m128i below_avx2(__m256i a, __m256i flipped_b) noexcept {
+    const __m256i sign = _mm256_set1_epi64x(static_cast<long long>(sign_bit));
     const __m256i below = _mm256_cmpgt_epi64(flipped_b, _mm256_xor_si256(a, sign));
     const __m256i even = _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6);
     return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(below, even));
 }
 
 template <particle_id Id>
-__attribute__((target("avx2"))) void gather_avx2(const flat_window<Id>& table, const Id* ids, index_t* out,
-                                                 std::size_t n) noexcept {
+[[gnu::target("avx2")]] void gather_avx2(const flat_window<Id>& table, const Id* ids, index_t* out,
+                                         std::size_t n) noexcept {
     const __m256i lowest = _mm256_set1_epi64x(static_cast<long long>(std::uint64_t{table.lowest}));
-    const __m256i count = _mm256_set1_epi64x(static_cast<long long>(table.count ^ (std::uint64_t{1} << 63)));
+    const __m256i count = _mm256_set1_epi64x(static_cast<long long>(table.count ^ sign_bit));
     const __m128i none = _mm_set1_epi32(absent);
     std::size_t k = 0;
     for (; k + 4 <= n; k += 4) {
@@ -113,10 +116,10 @@ __attribute__((target("avx2"))) void gather_avx2(const flat_window<Id>& table, c
 }
 
 template <particle_id Id>
-__attribute__((target("avx2"))) void gather_avx2(const paged_window<Id>& table, const Id* ids, index_t* out,
-                                                 std::size_t n) noexcept {
+[[gnu::target("avx2")]] void gather_avx2(const paged_window<Id>& table, const Id* ids, index_t* out,
+                                         std::size_t n) noexcept {
     const __m256i first = _mm256_set1_epi64x(static_cast<long long>(std::uint64_t{table.first}));
-    const __m256i count = _mm256_set1_epi64x(static_cast<long long>(table.count ^ (std::uint64_t{1} << 63)));
+    const __m256i count = _mm256_set1_epi64x(static_cast<long long>(table.count ^ sign_bit));
     const __m256i mask = _mm256_set1_epi64x(static_cast<long long>((std::uint64_t{1} << table.bits) - 1));
     const __m128i bits = _mm_cvtsi32_si128(static_cast<int>(table.bits));
     const __m128i none = _mm_set1_epi32(absent);
@@ -140,7 +143,7 @@ __attribute__((target("avx2"))) void gather_avx2(const paged_window<Id>& table, 
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 
 template <particle_id Id>
-__attribute__((target("avx512f"))) inline __m512i lanes_avx512(const Id* ids) noexcept {
+[[gnu::target("avx512f")]] inline __m512i lanes_avx512(const Id* ids) noexcept {
     if constexpr (sizeof(Id) == 8)
         return _mm512_loadu_si512(ids);
     else
@@ -148,7 +151,7 @@ __attribute__((target("avx512f"))) inline __m512i lanes_avx512(const Id* ids) no
 }
 
 template <particle_id Id>
-__attribute__((target("avx512f"))) inline __m512i subtract_avx512(__m512i a, __m512i b) noexcept {
+[[gnu::target("avx512f")]] inline __m512i subtract_avx512(__m512i a, __m512i b) noexcept {
     if constexpr (sizeof(Id) == 8)
         return _mm512_sub_epi64(a, b);
     else
@@ -156,8 +159,8 @@ __attribute__((target("avx512f"))) inline __m512i subtract_avx512(__m512i a, __m
 }
 
 template <particle_id Id>
-__attribute__((target("avx512f"))) void gather_avx512(const flat_window<Id>& table, const Id* ids, index_t* out,
-                                                      std::size_t n) noexcept {
+[[gnu::target("avx512f")]] void gather_avx512(const flat_window<Id>& table, const Id* ids, index_t* out,
+                                              std::size_t n) noexcept {
     const __m512i lowest = _mm512_set1_epi64(static_cast<long long>(std::uint64_t{table.lowest}));
     const __m512i count = _mm512_set1_epi64(static_cast<long long>(table.count));
     const __m256i none = _mm256_set1_epi32(absent);
@@ -172,8 +175,8 @@ __attribute__((target("avx512f"))) void gather_avx512(const flat_window<Id>& tab
 }
 
 template <particle_id Id>
-__attribute__((target("avx512f"))) void gather_avx512(const paged_window<Id>& table, const Id* ids, index_t* out,
-                                                      std::size_t n) noexcept {
+[[gnu::target("avx512f")]] void gather_avx512(const paged_window<Id>& table, const Id* ids, index_t* out,
+                                              std::size_t n) noexcept {
     const __m512i first = _mm512_set1_epi64(static_cast<long long>(std::uint64_t{table.first}));
     const __m512i count = _mm512_set1_epi64(static_cast<long long>(table.count));
     const __m512i mask = _mm512_set1_epi64(static_cast<long long>((std::uint64_t{1} << table.bits) - 1));

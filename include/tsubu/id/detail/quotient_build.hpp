@@ -23,9 +23,11 @@
 #include <tsubu/id/detail/quotient_lines.hpp>
 
 #include <algorithm>    // std::fill_n, std::min
+#include <bit>          // std::countr_zero
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
 #include <cstring>      // std::memcpy, std::memset
+#include <memory>       // std::allocator_traits
 #include <span>         // std::span
 #include <type_traits>  // std::conditional_t
 #include <vector>       // std::vector
@@ -70,12 +72,12 @@ public:
     bool insert(std::uint64_t place, Slot tag, std::uint32_t index_plus_1) noexcept {
         const auto end = walk<Layout>(table_, place, tag, end_line_);
         const auto home = place / Layout::slots;
-        if (end.what == search_end::at::match) {
+        if (end.what == search_end::outcome::match) {
             link(index_plus_1, index_at<Layout>(table_, end.place));
             write_slot<Layout>(table_, end.place, probe_tag(tag, end.probe), index_plus_1);
             return true;
         }
-        if (end.what == search_end::at::boundary) {
+        if (end.what == search_end::outcome::boundary) {
             mark(home, (std::min)(home + table_.most_probes, end_line_));
             return false;
         }
@@ -118,7 +120,8 @@ bool insert_into_stash(Filler& filler, Spills& stash, const spilled_id& entry) n
 
 inline constexpr std::uint64_t no_fit = ~std::uint64_t{0};
 
-/// Inserts all ids into cleared lines, last to first. @return how many ids occurred before; no_fit if the stash is full.
+/// Inserts all ids into cleared lines, last to first. @return how many ids occurred before; no_fit if the stash is
+/// full.
 template <class Kernels, class Layout, class Id, class Spills>
 std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
                          bool prefetch) noexcept {
@@ -208,8 +211,8 @@ public:
     }
 
     template <class Kernels, class Id, class Spills, executor Executor>
-    std::uint64_t fill(const line_table& table, const std::uint64_t* overflow_end, Spills& stash, std::span<const Id> ids,
-                       std::span<index_t> links, const Executor& on) noexcept {
+    std::uint64_t fill(const line_table& table, const std::uint64_t* overflow_end, Spills& stash,
+                       std::span<const Id> ids, std::span<index_t> links, const Executor& on) noexcept {
         const auto share = (ids.size() / team_ + block_size) / block_size * block_size;
         const auto ids_of = [&](std::size_t t) {  // member 0 has the last ids: its items come first
             const auto end = ids.size() - (std::min)(ids.size(), t * share);
@@ -229,12 +232,12 @@ public:
             if (!links.empty()) std::fill_n(links.data() + first, mine.size(), absent);
             this->template deal<Kernels>(table, mine, static_cast<std::uint32_t>(first + 1), t);
         });
-        bool fits = true;
         on.run([&](std::size_t t) {
             repeated_[t] = 0;
             for (std::size_t p = parts_ * t / team_; p < parts_ * (t + 1) / team_; ++p)
                 repeated_[t] += fill_part(table, overflow_end, p, links.data());
         });
+        bool fits = true;
         std::uint64_t repeated = 0;
         for (std::size_t t = 0; t < team_; ++t) repeated += repeated_[t];
         line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
@@ -298,7 +301,8 @@ private:
 #endif
     }
 
-    std::uint64_t fill_part(const line_table& table, const std::uint64_t* overflow_end, std::size_t p, index_t* links) noexcept {
+    std::uint64_t fill_part(const line_table& table, const std::uint64_t* overflow_end, std::size_t p,
+                            index_t* links) noexcept {
         const auto first_line = std::uint64_t{p} << part_lines_log2;
         const bool last = p + 1 == parts_;
         const auto all_lines = table.lines + extra_lines;
@@ -366,11 +370,11 @@ private:
     std::size_t parts_;
     std::size_t team_;
     buffer<cache_line, Allocator> items_;
-    buffer<cache_line, Allocator> staged_;         // one line per member and part
-    buffer<std::uint64_t, Allocator> begin_;       // of the items of part p from member t: [p * team + t]
-    buffer<std::uint64_t, Allocator> cursor_;      // counts, then ends: [t * parts + p]
-    buffer<std::uint64_t, Allocator> repeated_;    // per member
-    std::vector<spill_list<Allocator>> late_;      // per part: what its last lines spill into the next
+    buffer<cache_line, Allocator> staged_;       // one line per member and part
+    buffer<std::uint64_t, Allocator> begin_;     // of the items of part p from member t: [p * team + t]
+    buffer<std::uint64_t, Allocator> cursor_;    // counts, then ends: [t * parts + p]
+    buffer<std::uint64_t, Allocator> repeated_;  // per member
+    std::vector<spill_list<Allocator>> late_;    // per part: what its last lines spill into the next
 };
 
 }  // namespace tsubu::detail

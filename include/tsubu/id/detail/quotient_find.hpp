@@ -25,8 +25,8 @@ template <class Layout>
 [[nodiscard, gnu::noinline]] index_t find_beyond(const line_table& table, std::span<const spilled_id> stash,
                                                  std::uint64_t place, typename Layout::slot_type tag) noexcept {
     const auto end = walk<Layout>(table, place, tag, table.lines + spill_lines);
-    if (end.what == search_end::at::match) return static_cast<index_t>(index_at<Layout>(table, end.place)) - 1;
-    if (end.what == search_end::at::boundary)
+    if (end.what == search_end::outcome::match) return static_cast<index_t>(index_at<Layout>(table, end.place)) - 1;
+    if (end.what == search_end::outcome::boundary)
         for (const auto& entry : stash)
             if (entry.place == place && entry.tag == tag) return static_cast<index_t>(entry.index_plus_1) - 1;
     return absent;
@@ -86,7 +86,7 @@ void find_blocks(const line_table& table, std::span<const spilled_id> stash, con
     }
 }
 
-/// Calls with<Kernels>() for the best kernels of this machine.
+/// Calls with(kernels) with the best kernels of this machine.
 template <class With>
 void with_kernels(With&& with) {
 #if defined(__x86_64__) && defined(__GNUC__)

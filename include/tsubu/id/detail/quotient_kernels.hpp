@@ -9,8 +9,6 @@
 
 #include <tsubu/id/detail/quotient_lines.hpp>
 
-#include <bit>      // std::countr_zero
-#include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint32_t
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -55,7 +53,8 @@ struct portable_kernels {
         for (std::uint32_t k = 0; k < block_size; ++k) {
             const Slot slot = block.slot[k];
             const bool match = (slot & mask) == block.tag[k];
-            const auto index = Layout::keyed ? block.index[k] : static_cast<std::uint32_t>(slot & static_cast<Slot>(~mask));
+            const auto index =
+                Layout::keyed ? block.index[k] : static_cast<std::uint32_t>(slot & static_cast<Slot>(~mask));
             out[k] = index_if(match, index);
             queue[queued] = k;
             queued += static_cast<std::uint32_t>(!match) & static_cast<std::uint32_t>(slot != 0);
@@ -95,9 +94,11 @@ struct portable_kernels {
 /// 512-bit vectors: 16 narrow or 8 wide slots at a time.
 struct avx512_kernels {
     template <class Layout, class Id>
-    [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq,bmi2")]] static void locate(const line_table& table, const Id* ids,
+    [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq,bmi2")]] static void locate(const line_table& table,
+                                                                                  const Id* ids,
                                                                                   id_block<Layout>& block) noexcept {
-        const __m512i base = _mm512_set1_epi64(static_cast<long long>(table.base + table.least_x));
+        const std::uint64_t first = table.base + table.least_x;
+        const __m512i base = _mm512_set1_epi64(static_cast<long long>(first));
         const __m512i limit = _mm512_set1_epi64(static_cast<long long>(table.limit));
         const __m512i least = _mm512_set1_epi64(static_cast<long long>(table.least_x));
         const __m512i lines = _mm512_set1_epi64(table.lines);
@@ -117,8 +118,8 @@ struct avx512_kernels {
                 const __m512i h = _mm512_mullo_epi32(_mm512_xor_si512(x, _mm512_srl_epi32(x, fold)), multiplier);
                 // 32 x 32 -> 64 bits for the even and the odd words; place = product >> 28 in each.
                 const __m512i even = _mm512_srli_epi64(_mm512_mul_epu32(h, lines), Layout::place_shift);
-                const __m512i odd = _mm512_slli_epi64(_mm512_mul_epu32(_mm512_srli_epi64(h, 32), lines),
-                                                      32 - Layout::place_shift);
+                const __m512i odd =
+                    _mm512_slli_epi64(_mm512_mul_epu32(_mm512_srli_epi64(h, 32), lines), 32 - Layout::place_shift);
                 const __m512i place = _mm512_mask_blend_epi32(0xAAAA, even, odd);
                 _mm512_store_si512(block.place + k, _mm512_mask_mov_epi32(nowhere, inside, place));
                 _mm512_store_si512(block.tag + k, _mm512_or_si512(_mm512_sll_epi32(h, tag_shift), step));
@@ -160,13 +161,15 @@ struct avx512_kernels {
             } else {
                 const __m512i low = _mm512_load_si512(block.slot + k);
                 const __m512i high = _mm512_load_si512(block.slot + k + 8);
-                match = join(_mm512_cmpeq_epi64_mask(_mm512_and_si512(low, mask), _mm512_load_si512(block.tag + k)),
-                             _mm512_cmpeq_epi64_mask(_mm512_and_si512(high, mask), _mm512_load_si512(block.tag + k + 8)));
+                match =
+                    join(_mm512_cmpeq_epi64_mask(_mm512_and_si512(low, mask), _mm512_load_si512(block.tag + k)),
+                         _mm512_cmpeq_epi64_mask(_mm512_and_si512(high, mask), _mm512_load_si512(block.tag + k + 8)));
                 taken = join(_mm512_test_epi64_mask(low, low), _mm512_test_epi64_mask(high, high));
                 if constexpr (Layout::keyed) {
                     index = _mm512_load_si512(block.index + k);
                 } else {
-                    const __m512i low_words = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+                    const __m512i low_words =
+                        _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
                     index = _mm512_permutex2var_epi32(_mm512_andnot_si512(mask, low), low_words,
                                                       _mm512_andnot_si512(mask, high));
                 }
@@ -243,7 +246,8 @@ struct avx2_kernels {
                                                     id_block<Layout>& block) noexcept {
         // AVX2 compares signed only: both sides are moved by 2^63.
         constexpr auto sign = static_cast<long long>(0x8000000000000000U);
-        const __m256i base = _mm256_set1_epi64x(static_cast<long long>(table.base + table.least_x));
+        const std::uint64_t first = table.base + table.least_x;
+        const __m256i base = _mm256_set1_epi64x(static_cast<long long>(first));
         const __m256i least = _mm256_set1_epi64x(static_cast<long long>(table.least_x));
         const __m256i limit = _mm256_set1_epi64x(static_cast<long long>(table.limit) ^ sign);
         const __m256i flip = _mm256_set1_epi64x(sign);
@@ -263,8 +267,8 @@ struct avx2_kernels {
                 const __m256i x = low_words(from0, from1);
                 const __m256i h = _mm256_mullo_epi32(_mm256_xor_si256(x, _mm256_srl_epi32(x, fold)), multiplier);
                 const __m256i even = _mm256_srli_epi64(_mm256_mul_epu32(h, lines), Layout::place_shift);
-                const __m256i odd = _mm256_slli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h, 32), lines),
-                                                      32 - Layout::place_shift);
+                const __m256i odd =
+                    _mm256_slli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h, 32), lines), 32 - Layout::place_shift);
                 place = _mm256_blend_epi32(even, odd, 0xAA);
                 _mm256_store_si256(reinterpret_cast<__m256i*>(block.tag + k),
                                    _mm256_or_si256(_mm256_sll_epi32(h, tag_shift), step));
@@ -274,15 +278,17 @@ struct avx2_kernels {
                 const __m256i x1 = _mm256_add_epi64(from1, least);
                 const __m256i h0 = multiply(_mm256_xor_si256(x0, _mm256_srl_epi64(x0, fold)), table.multiplier);
                 const __m256i h1 = multiply(_mm256_xor_si256(x1, _mm256_srl_epi64(x1, fold)), table.multiplier);
-                place = low_words(
-                    _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h0, 32), lines), Layout::place_shift),
-                    _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h1, 32), lines), Layout::place_shift));
+                place = low_words(_mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h0, 32), lines),
+                                                    Layout::place_shift),
+                                  _mm256_srli_epi64(_mm256_mul_epu32(_mm256_srli_epi64(h1, 32), lines),
+                                                    Layout::place_shift));
                 _mm256_store_si256(reinterpret_cast<__m256i*>(block.tag + k),
                                    _mm256_or_si256(_mm256_sll_epi64(h0, tag_shift), step));
                 _mm256_store_si256(reinterpret_cast<__m256i*>(block.tag + k + 4),
                                    _mm256_or_si256(_mm256_sll_epi64(h1, tag_shift), step));
             }
-            _mm256_store_si256(reinterpret_cast<__m256i*>(block.place + k), _mm256_blendv_epi8(place, nowhere, outside));
+            _mm256_store_si256(reinterpret_cast<__m256i*>(block.place + k),
+                               _mm256_blendv_epi8(place, nowhere, outside));
         }
     }
 
@@ -316,9 +322,9 @@ struct avx2_kernels {
             }
             _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + k),
                                 _mm256_sub_epi32(_mm256_and_si256(index, match), one));
-            const auto left = ~static_cast<std::uint32_t>(
-                                  _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_or_si256(match, vacant)))) &
-                              0xFFU;
+            const auto left =
+                ~static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_or_si256(match, vacant)))) &
+                0xFFU;
             for (std::uint32_t j = 0; j < 8; ++j) {  // no branch: about one in five is left, at random
                 queue[queued] = k + j;
                 queued += left >> j & 1;
@@ -373,7 +379,8 @@ private:
         return _mm256_cvtepu32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)));
     }
     /// The low halves of four and four 64-bit words, in order.
-    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i low_words(__m256i first, __m256i second) noexcept {
+    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i low_words(__m256i first,
+                                                                                __m256i second) noexcept {
         const __m256i picked = _mm256_castps_si256(
             _mm256_shuffle_ps(_mm256_castsi256_ps(first), _mm256_castsi256_ps(second), _MM_SHUFFLE(2, 0, 2, 0)));
         return _mm256_permute4x64_epi64(picked, _MM_SHUFFLE(3, 1, 2, 0));

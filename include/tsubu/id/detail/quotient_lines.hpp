@@ -3,8 +3,8 @@
 /// Lines of slots that identify an id exactly without storing it: the table inside flat_storage.
 ///
 /// x = id - base has W bits. h(x) = (x ^ (x >> fold)) * multiplier mod 2^W is a bijection (fold >= W/2, multiplier
-/// odd). The line is floor(h * lines / 2^W), so the line implies all but the low r bits of h, r = about W - log2(lines):
-/// a slot that keeps those r bits tells every id of its line from every other.
+/// odd). The line is floor(h * lines / 2^W), so the line implies all but the low r bits of h, r = about W -
+/// log2(lines): a slot that keeps those r bits tells every id of its line from every other.
 ///
 ///     slot, 32 or 64 bits      | remainder (r) |  unused  | displacement + 1 (2..3) | index + 1 |      0 = empty
 ///                               <------------ tag, under tag_mask ----------------->
@@ -28,11 +28,10 @@
 /// doi:10.1109/TC.1984.1676499; multiply-shift hashing as in Dietzfelbinger et al. 1997, doi:10.1006/jagm.1997.0873.
 #pragma once
 
-#include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <bit>      // std::bit_width, std::countr_zero
-#include <cstddef>  // std::size_t
+#include <bit>      // std::countr_zero
+#include <cstddef>  // std::byte
 #include <cstdint>  // std::uint32_t
 
 #if defined(__SSE2__)
@@ -46,9 +45,10 @@ struct alignas(64) cache_line {
     std::byte bytes[64];
 };
 
-inline constexpr std::uint32_t spill_lines = 7;              // displacement + 1 has at most 3 bits: 1 .. 7
+inline constexpr std::uint32_t spill_lines = 7;                // displacement + 1 has at most 3 bits: 1 .. 7
 inline constexpr std::uint32_t extra_lines = spill_lines + 1;  // and the line that is always empty
-inline constexpr std::uint32_t most_displacement_bits = 3;   // further away than 6 lines nothing ever was
+inline constexpr std::uint32_t most_displacement_bits =
+    3;  // an id 7 lines from home would be one of 100 in a row without a free slot
 inline constexpr std::uint32_t least_displacement_bits = 2;  // 1 bit would leave no displacement but 0
 
 /// How one line is read: as 16 slots of 4 bytes, 8 of 8 bytes, or 8 keys of 8 bytes.
@@ -74,16 +74,16 @@ struct located {
 
 /// Everything a look-up needs, held by value: parameters of the hash and where the lines are.
 struct line_table {
-    std::byte* memory = nullptr;       // lines, then overflow bits, then indices
+    std::byte* memory = nullptr;        // lines, then overflow bits, then indices
     std::uint64_t* overflow = nullptr;  // bit L: something passed line L because it was full
-    std::uint32_t* indices = nullptr;  // keyed lines only: index + 1 per place
-    std::uint64_t base = 0;            // x = id - base
-    std::uint64_t limit = 0;           // x - least_x <= limit, else the id cannot be here
-    std::uint64_t least_x = 0;         // 0; for keyed lines 1: the base itself is no id
-    std::uint64_t multiplier = 0;      // odd * 2^(slot_bits - W)
-    std::uint32_t fold = 0;            // ceil(W / 2)
-    std::uint32_t bits = 0;            // W
-    std::uint32_t tag_shift = 0;       // W - r: brings the remainder to the top of the slot
+    std::uint32_t* indices = nullptr;   // keyed lines only: index + 1 per place
+    std::uint64_t base = 0;             // x = id - base
+    std::uint64_t limit = 0;            // x - least_x <= limit, else the id cannot be here
+    std::uint64_t least_x = 0;          // 0; for keyed lines 1: the base itself is no id
+    std::uint64_t multiplier = 0;       // odd * 2^(slot_bits - W)
+    std::uint32_t fold = 0;             // ceil(W / 2)
+    std::uint32_t bits = 0;             // W
+    std::uint32_t tag_shift = 0;        // W - r: brings the remainder to the top of the slot
     std::uint32_t index_bits = 0;
     std::uint32_t lines = 0;
     std::uint32_t most_probes = 0;  // lines an id may lie in: greatest displacement + 1
@@ -119,7 +119,7 @@ struct line_table {
     }
 };
 
-/// Bit k: slot k of the line that `place` lies in matches the tag.
+/// Bit k (16 slots) or bit 2 k (8 slots): slot k of the line matches the tag, under the mask.
 template <class Layout>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t matches(const typename Layout::slot_type* line,
                                                                typename Layout::slot_type tag,
@@ -135,9 +135,11 @@ template <class Layout>
         wanted = _mm_set1_epi64x(static_cast<long long>(tag));
         under = _mm_set1_epi64x(static_cast<long long>(mask));
     }
-    const auto equal = [&](int k) { return _mm_cmpeq_epi32(_mm_and_si128(_mm_load_si128(quarter + k), under), wanted); };
-    const auto halves = static_cast<std::uint32_t>(_mm_movemask_epi8(
-        _mm_packs_epi16(_mm_packs_epi32(equal(0), equal(1)), _mm_packs_epi32(equal(2), equal(3)))));
+    const auto equal = [&](int k) {
+        return _mm_cmpeq_epi32(_mm_and_si128(_mm_load_si128(quarter + k), under), wanted);
+    };
+    const auto halves = static_cast<std::uint32_t>(
+        _mm_movemask_epi8(_mm_packs_epi16(_mm_packs_epi32(equal(0), equal(1)), _mm_packs_epi32(equal(2), equal(3)))));
     if constexpr (Layout::slots == 16) return halves;
     // 64-bit slots: both halves must match; the pairs of bits 0 1, 2 3, ... become bits 0, 2, ...
     return halves & halves >> 1 & 0x5555U;
@@ -204,8 +206,8 @@ template <class Layout>
 
 /// Where the search for an id ended.
 struct search_end {
-    enum class at { match, free_slot, boundary };
-    at what = at::boundary;
+    enum class outcome { match, free_slot, boundary };
+    outcome what = outcome::boundary;
     std::uint64_t place = 0;  // of the match or the free slot
     std::uint32_t probe = 0;  // lines between it and the home line
 };
@@ -224,8 +226,8 @@ template <class Layout>
         const std::uint64_t first = (home + probe) * Layout::slots;
         for (std::uint32_t k = 0; k < Layout::slots; ++k) {
             const auto at = first + (preferred + k) % Layout::slots;
-            if (slots[at] == 0) return {search_end::at::free_slot, at, probe};
-            if ((slots[at] & mask) == tag) return {search_end::at::match, at, probe};
+            if (slots[at] == 0) return {search_end::outcome::free_slot, at, probe};
+            if ((slots[at] & mask) == tag) return {search_end::outcome::match, at, probe};
         }
         tag = static_cast<Slot>(tag + static_cast<Slot>(table.tag_step));
     }

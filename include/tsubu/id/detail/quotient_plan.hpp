@@ -3,13 +3,12 @@
 /// How many lines, of which kind, under which hash: the shape of a quotient table, and all that it holds.
 #pragma once
 
-#include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/detail/quotient_find.hpp>
 #include <tsubu/id/detail/quotient_lines.hpp>
-#include <tsubu/id/id_range.hpp>
+#include <tsubu/id/flat_lines.hpp>
 
 #include <algorithm>  // std::max, std::min
 #include <bit>        // std::bit_width
@@ -21,29 +20,13 @@
 
 namespace tsubu {
 
-/// How flat_storage stores the ids it was given.
-enum class flat_lines {
-    narrow,  ///< 4-byte slots, 8 bytes per id: ranges up to about 2^26 at 1e6 ids
-    wide,    ///< 8-byte slots, 16 bytes per id: ranges up to about 2^59
-    keyed,   ///< 8-byte keys and 4-byte indices, 20 bytes per id: anything beyond
-};
-
-[[nodiscard]] constexpr const char* name_of(flat_lines lines) noexcept {
-    switch (lines) {
-        case flat_lines::narrow: return "narrow";
-        case flat_lines::wide: return "wide";
-        case flat_lines::keyed: break;
-    }
-    return "keyed";
-}
-
 namespace detail {
 
 /// What a table is to hold.
 struct line_demand {
-    std::size_t count = 0;         // different ids at most
+    std::size_t count = 0;  // different ids at most
     std::uint64_t lowest = 0;
-    std::uint64_t extent = 0;      // highest - lowest
+    std::uint64_t extent = 0;  // highest - lowest
     std::uint64_t greatest_index = 0;
     std::uint32_t multiplier = 0;  // number in the sequence of multipliers
 };
@@ -57,14 +40,14 @@ struct line_plan {
     std::size_t stash_capacity = 0;
 };
 
-inline constexpr std::uint32_t least_range_bits = 8;      // fewer would leave nothing to shift by
+inline constexpr std::uint32_t least_range_bits = 8;                        // fewer would leave nothing to shift by
 inline constexpr std::uint64_t most_lines = (std::uint64_t{1} << 29) - 64;  // a place of 8 slots per line fits 32 bits
-inline constexpr std::uint32_t attempts_per_size = 8;     // multipliers before the table is given more lines
+inline constexpr std::uint32_t attempts_per_size = 8;  // multipliers before the table is given more lines
 inline constexpr std::uint32_t most_attempts = 64;
 
 /// The k-th of a fixed sequence of odd multipliers; the first is 2^64 / golden ratio.
 [[nodiscard]] constexpr std::uint64_t odd_multiplier(std::uint32_t k) noexcept {
-    return k == 0 ? 0x9e3779b97f4a7c15U : splitmix64(k) | 1;
+    return k == 0 ? golden_stride : splitmix64(k) | 1;
 }
 
 /// Bits of h that a line does not imply: 2^r >= number of different h in any line.
@@ -133,13 +116,13 @@ template <class BaseOfKeys>
 /// Another multiplier; after each eight of them a quarter more lines.
 inline void next_attempt(line_plan& plan, std::uint32_t multiplier, std::uint32_t attempt) {
     if (attempt >= most_attempts)
-        raise<limit_error>("flat_storage",
+        raise<limit_error>("flat_storage::rebuild",
                            std::to_string(plan.demand.count) + " ids did not fit under " + std::to_string(attempt) +
                                " hash multipliers",
                            "use chained_storage for ids made to defeat this hash");
     plan.demand.multiplier = multiplier;
-    const std::uint64_t lines = attempt % attempts_per_size == 0 ? plan.table.lines + plan.table.lines / 4 + 1
-                                                                 : plan.table.lines;
+    const std::uint64_t lines =
+        attempt % attempts_per_size == 0 ? plan.table.lines + plan.table.lines / 4 + 1 : plan.table.lines;
     switch (plan.lines) {  // more lines leave fewer bits to the slots: what fitted fits
         case flat_lines::narrow: static_cast<void>(shape<narrow_lines>(plan, lines)); break;
         case flat_lines::wide: static_cast<void>(shape<wide_lines>(plan, lines)); break;
@@ -179,11 +162,11 @@ inline constexpr cache_line vacant_lines[extra_lines + 1] = {};
     line_table table;
     table.memory = const_cast<std::byte*>(vacant_lines[0].bytes);  // never written: it has room for nothing
     table.overflow = reinterpret_cast<std::uint64_t*>(table.memory);
+    table.limit = ~std::uint64_t{0};  // every id is looked for, in line 0
+    table.index_bits = 0;             // and no index fits, so that the first assign takes memory
+    table.tag_step = 1;               // tags are never 0
+    table.tag_mask = ~std::uint64_t{0};
     table.bits = least_range_bits;
-    table.fold = 1;
-    table.limit = ~std::uint64_t{0};
-    table.tag_mask = ~std::uint64_t{0xFF};
-    table.tag_step = 0x100;
     table.most_probes = 1;
     return table;
 }
@@ -192,7 +175,8 @@ inline constexpr cache_line vacant_lines[extra_lines + 1] = {};
     return static_cast<std::uint64_t>(index) + 1 < std::uint64_t{1} << table.index_bits;
 }
 
-/// A value that no id has: below them, above them, or, if they reach both ends of 64 bits, one that is not taken(value).
+/// A value that no id has: below them, above them, or, if they reach both ends of 64 bits, one that is not
+/// taken(value).
 template <class Taken>
 [[nodiscard]] std::uint64_t value_beside(std::uint64_t lowest, std::uint64_t highest, Taken&& taken) noexcept {
     if (lowest != 0) return lowest - 1;
@@ -211,10 +195,12 @@ template <class Layout>
     std::uint64_t h = tag;
     if constexpr (!Layout::keyed) {
         const auto remainder_width = bits - table.tag_shift;
-        const std::uint64_t remainder = remainder_width == 0 ? 0 : std::uint64_t{tag} >> (Layout::slot_bits - remainder_width);
-        const std::uint64_t first_high = ((home << 32) + table.lines - 1) / table.lines;  // lowest high word of the line
-        const std::uint64_t lowest =
-            bits >= 32 ? first_high << (bits - 32) : (first_high + (std::uint64_t{1} << (32 - bits)) - 1) >> (32 - bits);
+        const std::uint64_t remainder =
+            remainder_width == 0 ? 0 : std::uint64_t{tag} >> (Layout::slot_bits - remainder_width);
+        const std::uint64_t first_high =
+            ((home << 32) + table.lines - 1) / table.lines;  // lowest high word of the line
+        const std::uint64_t lowest = bits >= 32 ? first_high << (bits - 32)
+                                                : (first_high + (std::uint64_t{1} << (32 - bits)) - 1) >> (32 - bits);
         h = lowest + ((remainder - lowest) & ((std::uint64_t{1} << remainder_width) - 1));
     }
     const std::uint64_t odd = table.multiplier >> (Layout::slot_bits - bits);

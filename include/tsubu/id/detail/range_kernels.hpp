@@ -15,21 +15,19 @@ namespace tsubu::detail {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-// The body stands in each function anew: a function for a wider instruction set cannot be inlined into a narrower one,
-// nor the other way round. Vectors of the compiler's own, so that minimum and maximum are plain expressions.
-
-template <particle_id Id>
-[[gnu::target("avx512f,avx512vl,avx512dq")]] id_range<Id> range_avx512(const Id* ids, std::size_t count) noexcept {
-    constexpr std::size_t lanes = 64 / sizeof(Id);
-    using vector [[gnu::vector_size(64)]] = Id;
-    vector low0 = ids[0] - vector{};
-    vector low1 = low0;
-    vector high0 = low0;
-    vector high1 = low0;
+// One body, inlined into a function for each instruction set, so that it is compiled with those instructions. Vectors
+// of the compiler's own, so that minimum and maximum are plain expressions; two of each, so that none waits.
+template <class Vector, particle_id Id>
+[[gnu::always_inline]] inline id_range<Id> range_by(const Id* ids, std::size_t count) noexcept {
+    constexpr std::size_t lanes = sizeof(Vector) / sizeof(Id);
+    Vector low0 = ids[0] - Vector{};
+    Vector low1 = low0;
+    Vector high0 = low0;
+    Vector high1 = low0;
     std::size_t i = 0;
     for (; i + 2 * lanes <= count; i += 2 * lanes) {
-        vector v0;
-        vector v1;
+        Vector v0;
+        Vector v1;
         std::memcpy(&v0, ids + i, sizeof(v0));
         std::memcpy(&v1, ids + i + lanes, sizeof(v1));
         low0 = v0 < low0 ? v0 : low0;
@@ -45,29 +43,15 @@ template <particle_id Id>
 }
 
 template <particle_id Id>
+[[gnu::target("avx512f,avx512vl,avx512dq")]] id_range<Id> range_avx512(const Id* ids, std::size_t count) noexcept {
+    using vector [[gnu::vector_size(64)]] = Id;
+    return range_by<vector>(ids, count);
+}
+
+template <particle_id Id>
 [[gnu::target("avx2")]] id_range<Id> range_avx2(const Id* ids, std::size_t count) noexcept {
-    constexpr std::size_t lanes = 32 / sizeof(Id);
     using vector [[gnu::vector_size(32)]] = Id;
-    vector low0 = ids[0] - vector{};
-    vector low1 = low0;
-    vector high0 = low0;
-    vector high1 = low0;
-    std::size_t i = 0;
-    for (; i + 2 * lanes <= count; i += 2 * lanes) {
-        vector v0;
-        vector v1;
-        std::memcpy(&v0, ids + i, sizeof(v0));
-        std::memcpy(&v1, ids + i + lanes, sizeof(v1));
-        low0 = v0 < low0 ? v0 : low0;
-        high0 = v0 > high0 ? v0 : high0;
-        low1 = v1 < low1 ? v1 : low1;
-        high1 = v1 > high1 ? v1 : high1;
-    }
-    low0 = low1 < low0 ? low1 : low0;
-    high0 = high1 > high0 ? high1 : high0;
-    auto range = range_of(std::span<const Id>(ids + i, count - i));
-    for (std::size_t k = 0; k < lanes; ++k) range = range.with(low0[k]).with(high0[k]);
-    return range;
+    return range_by<vector>(ids, count);
 }
 
 #endif

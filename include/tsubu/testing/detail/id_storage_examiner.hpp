@@ -105,7 +105,7 @@ private:
     void expect(bool ok, const char* law) {
         if (ok) return check_(true, std::string_view(law));
         std::string text = law;
-        text += " [ids: " + std::string(testing::name(pattern_)) + ", " + std::to_string(model_.size()) +
+        text += " [ids: " + std::string(testing::name_of(pattern_)) + ", " + std::to_string(model_.size()) +
                 " different, step " + std::to_string(step_) + ", seed " + std::to_string(seed_);
         if (blamed_ != no_blame) text += ", id " + std::to_string(static_cast<id_type>(blamed_));
         text += "]";

@@ -102,8 +102,11 @@ public:
     explicit adaptive_storage(memory_limit limit, const Allocator& allocator = {})
         : table_(std::in_place_type<flat>, limit, allocator), limit_(limit) {}
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        return with_table([&](const auto& table) { return table.find(id); });
+    [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
+        // The other two are a call: four tables in one loop leave no registers to any.
+        if (const auto* const table = std::get_if<flat>(&table_)) return table->find(id);
+        if (const auto* const table = std::get_if<dense>(&table_)) return table->find(id);
+        return find_in_others(id);
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         with_table([&](const auto& table) { table.find(ids, indices); });
@@ -250,6 +253,9 @@ private:
             [&](const auto& table) { table.for_each([&](Id present, index_t at) { sparse.assign(present, at); }); });
         sparse.assign(id, index);
         table_ = std::move(sparse);
+    }
+    [[nodiscard, gnu::noinline]] index_t find_in_others(Id id) const noexcept {
+        return with_table([&](const auto& table) { return table.find(id); });
     }
     // Not std::visit: find() of the tables is inlined into the caller.
     template <class Self, class Call>

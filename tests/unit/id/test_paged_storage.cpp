@@ -244,3 +244,24 @@ TEST_CASE("a copy of a paged_storage is independent, and what was moved from is 
     CHECK(copy.find(70'000) == 3);
     CHECK(moved.find(70'000) == absent);
 }
+
+TEST_CASE("a directory that grew far downwards still knows where each page stands", "[id][paged_storage]") {
+    tsubu::paged_storage<> storage;
+    const std::int64_t high = std::int64_t{1} << 40;
+    const std::int64_t low = high - (std::int64_t{1} << 28);  // 2^18 pages below
+    storage.assign(high, 1);
+    storage.assign(low, 2);
+    bool right = true;
+    std::size_t count = 0;
+    storage.for_each([&](std::int64_t id, tsubu::index_t index) {
+        right = right && id == (index == 1 ? high : low);
+        ++count;
+    });
+    CHECK(right);
+    CHECK(count == 2);
+    storage.clear();
+    CHECK(storage.find(high) == tsubu::absent);
+    storage.assign(high + 1, 3);
+    CHECK(storage.find(high) == tsubu::absent);
+    CHECK(storage.find(high + 1) == 3);
+}

@@ -39,9 +39,9 @@ SERIES = {
     "flat": ("flat", "#2a8fd0", "o", "-", 2.0),
     "flat_portable": ("flat, portable", "#2a8fd0", "o", "--", 1.2),
     "chained_mixed": ("chained, mixed", "#4fa35a", "^", "-", 1.4),
-    "chained_mod_prime": ("chained, mod prime (notes)", "#c0508f", "v", "-", 1.4),
+    "chained_mod_prime": ("chained, mod prime (LIGGGHTS' scheme)", "#c0508f", "v", "-", 1.4),
     "adaptive": ("adaptive (default)", INK, "O", "-", .9),
-    "adaptive_portable": ("adaptive, portable", INK, "O", "--", .9),
+    "adaptive_portable": ("adaptive, portable", INK, "S", "--", .9),
     "std_unordered_map": ("std::unordered_map", "#888888", "x", "-.", 1.1),
     "boost_flat_map": ("boost::unordered_flat_map", "#2fa39b", "+", "-.", 1.1),
     "absl_flat_hash_map": ("absl::flat_hash_map", "#87922f", "1", "-.", 1.1),
@@ -49,6 +49,9 @@ SERIES = {
     "oracle": ("oracle: places known", INK, "", ":", 1.6),
     "plain_array": ("plain array", INK, "*", "", 0),
 }
+# For policies of the user's own, in the order in which they come: colours and markers that no series above has.
+GUESTS = (("#e2304a", "P"), ("#5a5fe8", "X"), ("#7ab317", "<"), ("#96694c", ">"), ("#d94fe0", "h"))
+KNOWN = len(SERIES)
 OPERATIONS = {
     "find_hit": ("Batched look-up, every id on the rank", "ns per look-up"),
     "find_half": ("Batched look-up, half of the ids elsewhere", "ns per look-up"),
@@ -69,6 +72,15 @@ class Refusal(Exception):
 
 # ---------------------------------------------------------------------------------------------------------------
 # Reading
+
+
+class Spread(float):
+    """A median, or a ratio of two, that knows the lowest and the highest it may be taken for."""
+
+    def __new__(cls, median, low, high):
+        made = super().__new__(cls, median)
+        made.low, made.high = low, high
+        return made
 
 
 class Results:
@@ -109,14 +121,15 @@ class Results:
             if operation == ["rebuild"]:
                 self.degenerate[cell] = (row["degenerate"], row.get("nanoseconds"))
         elif (*cell, operation[0]) not in already:  # of two runs of one cell the first counts
-            SERIES.setdefault(series, (series, "#c06b8f", "h", "-", 1.6))  # a policy of the user's own
+            if series not in SERIES:
+                SERIES[series] = (series, *GUESTS[(len(SERIES) - KNOWN) % len(GUESTS)], "-", 1.6)
             self.times[(*cell, operation[0])].append(1e9 / row["items_per_second"])
             self.memory[cell] = row["bytes_per_particle"]
 
     def median(self, pattern, count, ratio, series, operation):
-        """None if not measured."""
+        """A Spread; None if not measured."""
         times = self.times.get((pattern, count, ratio, series, operation))
-        return statistics.median(times) if times else None
+        return Spread(statistics.median(times), min(times), max(times)) if times else None
 
     def best(self, candidates, pattern, count, ratio, operation):
         """(median, series) of the fastest candidate, or None."""
@@ -159,8 +172,12 @@ def place_name(point):
 # What must be shown: each claim of the project about speed and memory, with what was measured
 
 
+HOLDS, FAILS, NOISY, NO_TARGET, NOT_MEASURED = "holds", "fails", "noisy", "no target", "not measured"
+MARKS = {HOLDS: "✓ holds", FAILS: "✗ fails", NO_TARGET: "–", NOT_MEASURED: NOT_MEASURED}
+
+
 class Claim:
-    """One line of the table. A claim over several points holds where it holds at the worst of them."""
+    """One line of the table. A claim over several points holds where it holds at each of them."""
 
     def __init__(self, text, target, unit="x", at_least=True):
         self.text, self.target, self.unit, self.at_least = text, target, unit, at_least
@@ -172,36 +189,61 @@ class Claim:
         return self
 
     def worst(self):
-        return (min if self.at_least else max)(self.values, key=lambda v: v[0])
+        return self.worst_of(self.values)
 
-    def holds(self):
-        """None if there is nothing to judge, or no target."""
-        if not self.values or self.target is None:
-            return None
-        worst = self.worst()[0]
-        return worst >= self.target * .995 if self.at_least else worst <= self.target * 1.005  # as it is printed
+    def worst_of(self, values):
+        return (min if self.at_least else max)(values, key=lambda v: v[0])
+
+    def verdict_at(self, value):
+        """The repetitions tell nothing where the target lies between the lowest and the highest ratio."""
+        target = self.target * (.995 if self.at_least else 1.005)  # as it is printed
+        holding = [x >= target if self.at_least else x <= target for x in limits(value)]
+        return HOLDS if all(holding) else NOISY if any(holding) else FAILS
+
+    def verdict(self):
+        if not self.values:
+            return NOT_MEASURED
+        if self.target is None:
+            return NO_TARGET
+        found = {self.verdict_at(v[0]) for v in self.values}
+        return next(verdict for verdict in (FAILS, NOISY, HOLDS) if verdict in found)
 
     def target_text(self):
         if self.target is None:
             return "none"
         return f"{'at least' if self.at_least else 'at most'} {self.target:g}{self.unit}"
 
+    def mark(self):
+        verdict = self.verdict()
+        if verdict != NOISY:
+            return MARKS[verdict]
+        low, high = limits(self.worst_of(v for v in self.values if self.verdict_at(v[0]) == NOISY)[0])
+        return f"too noisy to tell ({figure_of(low)}–{figure_of(high)}{self.unit})"
+
     def cells(self):
         """(claim, target, median, worst, where, portable worst, mark)"""
         if not self.values:
-            return self.text, self.target_text(), "", "", "", "", "not measured"
+            return self.text, self.target_text(), "", "", "", "", self.mark()
         worst = self.worst()
         portables = [v[1] for v in self.values if v[1]]
         portable = (min if self.at_least else max)(portables) if portables else None
         middle = statistics.median(v[0] for v in self.values)
-        mark = {True: "✓ holds", False: "✗ fails", None: "–"}[self.holds()]
         where = worst[2] + (f" (of {len(self.values)})" if len(self.values) > 1 else "")
         return (self.text, self.target_text(), figure_of(middle) + self.unit, figure_of(worst[0]) + self.unit, where,
-                figure_of(portable) + self.unit if portable else "", mark)
+                figure_of(portable) + self.unit if portable else "", self.mark())
+
+
+def limits(value):
+    """(lowest, highest); twice the value if it is exact."""
+    return (value.low, value.high) if isinstance(value, Spread) else (value, value)
 
 
 def quotient(a, b):
-    return a / b if a and b else None
+    """Of the medians; from the lowest a by the highest b to the highest a by the lowest b."""
+    if not a or not b:
+        return None
+    (a_low, a_high), (b_low, b_high) = limits(a), limits(b)
+    return Spread(a / b, a_low / b_high, a_high / b_low)
 
 
 def sparse_points(results, count):
@@ -476,8 +518,8 @@ def style_of(series):
     _, colour, marker, line, width = SERIES.get(series, (series, "#888888", ".", "-", 1))
     style = {"color": colour, "marker": marker, "linestyle": line or "none", "linewidth": width, "markersize": 5,
              "label": label(series)}
-    if marker == "O":  # a ring around the policy that it follows
-        style.update(marker="o", markersize=9, markerfacecolor="none")
+    if marker in ("O", "S"):  # a ring or a frame around the policy that it follows
+        style.update(marker=marker.lower(), markersize=9, markerfacecolor="none")
     if series == "flat_portable":
         style.update(markerfacecolor="none")
     if marker in "x+12":
@@ -502,8 +544,13 @@ def sweep_chart(results, count, operation, title, unit, pyplot):
     ratios = results.ratios(count)
     for series in drawn_series(results, count, operation):
         points = [(r, v) for r in ratios if (v := sweep_value(results, count, r, series, operation))]
-        axes.plot(*zip(*points), **style_of(series), zorder=4 if series.startswith(DEFAULT) else 3)
+        style = style_of(series)
+        if len(points) == 1 and not style["marker"]:
+            style.update(marker="_", markersize=14, markeredgewidth=1.6)  # a line needs two points to be seen
+        axes.plot(*zip(*points), **style, zorder=4 if series.startswith(DEFAULT) else 3)
     axes.set(xscale="log", yscale="log", xlabel="T/N: range of the ids per id", ylabel=unit)
+    if len(ratios) == 1:
+        axes.set_xlim(ratios[0] / 2, ratios[0] * 2)
     axes.set_xticks(ratios, [power(r) for r in ratios])
     axes.minorticks_off()
     plain_ticks(axes.yaxis)
@@ -605,6 +652,7 @@ th, td { padding: .2rem .6rem; text-align: left; border-bottom: 1px solid var(--
 thead th { background: var(--soft); } td small { opacity: .75; white-space: nowrap; } td.figure { text-align: right; }
 .holds { color: var(--good); font-weight: 600; white-space: nowrap; }
 .fails { color: var(--bad); font-weight: 600; white-space: nowrap; }
+.noisy { font-style: italic; }
 """
 
 
@@ -716,16 +764,24 @@ def choice_section(results):
 
 
 def claim_section(results):
-    rows = []
-    for claim in all_claims(results):
-        cells = list(claim.cells())
-        kind = {True: "holds", False: "fails", None: ""}[claim.holds()]
-        cells[-1] = f'<td class="{kind}">{cells[-1]}</td>'
-        rows.append(cells)
-    held, failed = (sum(c.holds() is want for c in all_claims(results)) for want in (True, False))
-    return (f'<h2 id="claims">What must hold</h2><p>{held} of {held + failed} claims that this run can judge hold. '
-            "A claim holds where it holds at the worst of its points. Portable: the default without vector "
-            "instructions, at the worst of the same points.</p>" + table(CLAIM_HEAD, rows))
+    claims = all_claims(results)
+    verdicts = [claim.verdict() for claim in claims]
+    rows, unmeasured = [], []
+    for claim, verdict in zip(claims, verdicts):
+        if verdict == NOT_MEASURED:
+            unmeasured.append((claim.text, claim.target_text()))
+        else:
+            *cells, mark = claim.cells()
+            rows.append([*cells, f'<td class="{verdict}">{mark}</td>' if verdict in (HOLDS, FAILS, NOISY) else mark])
+    held, failed, noisy = (verdicts.count(verdict) for verdict in (HOLDS, FAILS, NOISY))
+    return (f'<h2 id="claims">What must hold</h2><p>{held} of {held + failed} claims that this run can judge hold' +
+            (f"; too noisy to tell: {noisy} more, whose target lies between the lowest and the highest ratio that the "
+             "repetitions allow, which stand in brackets" if noisy else "") +
+            ". A claim holds where it holds at the worst of its points. Portable: the default without vector "
+            "instructions, at the worst of the same points. The notes' scheme is that of LIGGGHTS: chains, the id "
+            "modulo a prime.</p>" + table(CLAIM_HEAD, rows) +
+            (folded(f"Claims not measured in this run: {len(unmeasured)}", table(CLAIM_HEAD[:2], unmeasured))
+             if unmeasured else ""))
 
 
 def context_section(results):

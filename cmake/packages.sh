@@ -19,6 +19,9 @@ die() { # code, message
     exit "$code"
 }
 have() { command -v "$1" >/dev/null 2>&1; }
+value_follows() { # an option that needs a value, and all that follows it
+    case ${2:-} in "" | --*) die 2 "$1 needs a value; see --help" ;; esac
+}
 at_least() { [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]; } # wanted, found
 
 need() {
@@ -29,9 +32,9 @@ need() {
 
 # Tests for need.
 cmake_is_new_enough() { have cmake && at_least 3.25 "$(cmake --version | sed -n '1s/[^0-9]*//p')"; }
-has_header() { # header, compiler (default: the first one there is)
+has_header() { # header, compiler (without it, or if it is not here: the first one there is)
     local compiler=${2:-}
-    [ -n "$compiler" ] || for compiler in c++ g++ clang++; do have "$compiler" && break; done
+    have "$compiler" || for compiler in c++ g++ clang++; do have "$compiler" && break; done
     printf '#include <%s>\n' "$1" | "$compiler" -std=c++20 -fsyntax-only -x c++ -
 }
 can_sanitize() { # compiler
@@ -51,6 +54,12 @@ compiler_package() { # compiler -> its Debian package
     clang++*) printf 'clang%s' "${1##*clang++}" ;;
     *) printf '%s' "${1##*/}" ;;
     esac
+}
+comes_in_a_package() { # compiler: by its name alone, since the lists of apt may still be empty
+    [[ $1 =~ ^(g|clang)\+\+(-[0-9]+)?$ ]]
+}
+check_compiler() { # one that the user has named: is here, or may be installed
+    have "$1" || comes_in_a_package "$1" || die 2 "no such compiler: $1"
 }
 on_debian() { have apt-get && [ -r /etc/debian_version ]; }
 first_available() { # a|b|c -> the first that apt knows; nothing if it knows none

@@ -43,8 +43,9 @@ namespace tsubu {
 /// Do not when    ids fill their range: dense_storage is two to five times faster there.
 /// Source:        design note in detail/quotient_lines.hpp.
 ///
-/// The strong guarantee has one far corner: a rebuild that fits the memory it has is done in place. Should eight hash
-/// multipliers in a row map these ids badly, and memory for a larger table then be refused, the map is left empty.
+/// The strong guarantee has one far corner: a rebuild that fits the memory it has is done in place. Should the hash
+/// multiplier map these ids badly, it is done again with another; if memory is refused then, or if none of 64 fits, the
+/// map is left empty.
 template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>
 class flat_storage {
 public:
@@ -91,8 +92,10 @@ public:
                     detail::find_blocks<Kernels, Layout>(table_, stash_.entries(), ids.data(), blocks, indices.data(),
                                                          exceeds_cache());
                 });
-            for (auto k = blocks * detail::block_size; k < ids.size(); ++k)
-                indices[k] = detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(ids[k]));
+            const auto done = blocks * detail::block_size;
+            for (std::size_t k = 0; k < ids.size() % detail::block_size; ++k)
+                indices[done + k] =
+                    detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(ids[done + k]));
         });
     }
     void prefetch(Id id) const noexcept {
@@ -131,9 +134,10 @@ public:
     /// @throws limit_error if the table must grow past the memory limit. Strong guarantee.
     void assign(Id id, index_t index) {
         const auto key = static_cast<std::uint64_t>(id);
-        while (!(may_hold(key) && detail::index_fits(table_, index) && (used_ < room_ || find(id) != absent) &&
-                 insert(key, index)))
-            make_room(key, index);
+        if (may_hold(key) && detail::index_fits(table_, index) && (used_ < room_ || find(id) != absent) &&
+            insert(key, index))
+            return;
+        grow_with(key, index);
     }
     bool erase(Id id) noexcept {
         return with_lines([&]<class Layout>(Layout) {
@@ -165,9 +169,9 @@ public:
     void reserve(std::size_t count) {
         if (count > room_) {
             const auto range = size_ == 0 ? id_range<std::uint64_t>{0, count} : range_of_entries();
-            grow(count, range.lowest, range.extent(), range.lowest, 0);
+            grow(count, range.lowest, range.extent(), {range.lowest, 0});
         }
-        reserved_ = memory_.size();
+        reserved_ = (std::max)(reserved_, count);
     }
     void clear() noexcept {
         if (!memory_.empty()) detail::wipe(table_, lines_);
@@ -242,7 +246,7 @@ private:
                      const Executor& on) {
         const auto needed = detail::memory_lines(plan.table, plan.lines);
         // Memory is kept while it is not far too large: 4 times is what a hole in the particle count may leave.
-        const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || memory_.size() <= reserved_);
+        const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || ids.size() <= reserved_);
         if (!keep)
             limit_.check("flat_storage::rebuild", needed * sizeof(detail::cache_line), ids.size(),
                          plan.demand.lowest + plan.demand.extent,
@@ -307,31 +311,32 @@ private:
             return true;
         });
     }
-    /// Grows so that one more id with this key and index fits. Strong guarantee.
-    void make_room(std::uint64_t key, index_t index) {
+    /// Grows and inserts. Strong guarantee.
+    void grow_with(std::uint64_t key, index_t index) {
         const auto present = size_ == 0 ? id_range<std::uint64_t>{} : range_of_entries();
         const auto range = present.with(key);
         // Room below as well: ids may come in descending order.
         const auto lowest = size_ == 0 || key != range.lowest ? range.lowest
                             : range.extent() < range.lowest   ? range.lowest - range.extent()
                                                               : 0;
-        grow((std::max)(size_ + 1, size_ * 2), lowest, range.highest - lowest, key, index);
+        grow((std::max)(size_ + 1, size_ * 2), lowest, range.highest - lowest,
+             {key, static_cast<std::uint32_t>(index) + 1});
     }
-    void grow(std::size_t count, std::uint64_t lowest, std::uint64_t extent, std::uint64_t new_key, index_t index) {
+    void grow(std::size_t count, std::uint64_t lowest, std::uint64_t extent, detail::id_entry added) {
         const auto entries = all_entries();
-        std::uint64_t greatest = static_cast<std::uint64_t>(index);
+        std::uint64_t greatest = added.index_plus_1;
         for (const auto& entry : entries) greatest = (std::max)(greatest, std::uint64_t{entry.index_plus_1});
         // Twice the greatest index: indices that count upwards do not lay the table out anew each time.
         greatest = (std::min)(2 * greatest + 64, std::uint64_t{max_index_count} - 1);
         auto plan =
-            detail::plan_lines({.count = (std::max)(count, std::size_t{16}),
+            detail::plan_lines({.count = (std::max)({count, reserved_, std::size_t{16}}),
                                 .lowest = lowest,
                                 .extent = extent,
                                 .greatest_index = greatest,
                                 .multiplier = multiplier_},
                                [&] {
                                    return detail::value_beside(lowest, lowest + extent, [&](std::uint64_t value) {
-                                       return find(static_cast<Id>(value)) != absent || value == new_key;
+                                       return find(static_cast<Id>(value)) != absent || value == added.key;
                                    });
                                });
         for (std::uint32_t attempt = 0;; ++attempt) {
@@ -353,6 +358,9 @@ private:
             bool fits = true;
             for (const auto& entry : entries)
                 fits = fits && larger.insert(entry.key, static_cast<index_t>(entry.index_plus_1) - 1);
+            // The new id must fit as well: if its line is what is full, only another multiplier helps.
+            fits = fits &&
+                   (added.index_plus_1 == 0 || larger.insert(added.key, static_cast<index_t>(added.index_plus_1) - 1));
             if (!fits) continue;
             swap(larger);
             return;
@@ -385,7 +393,7 @@ private:
     std::size_t size_ = 0;          // ids present
     std::size_t used_ = 0;          // slots that are not empty: present ids and erased ones
     std::size_t room_ = 0;          // used_ may reach this before the table grows
-    std::size_t reserved_ = 0;      // cache lines that reserve() asked for: kept however few ids come
+    std::size_t reserved_ = 0;      // ids that reserve() asked for: memory for them is kept however few come
     std::uint32_t multiplier_ = 0;  // which one of the sequence; it is remembered between rebuilds
     memory_limit limit_{};
 };

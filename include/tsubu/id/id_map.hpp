@@ -231,9 +231,10 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
             if (const auto k = static_cast<std::size_t>(i); k < after.size() && !contains(after[k]))
                 storage_.assign(after[k], i);
         if (!before.empty()) {  // room for the highest index, by writing it once
-            const auto index = find(before[0]);
-            storage_.assign(before[0], static_cast<index_t>(longer - 1));
-            storage_.assign(before[0], index);
+            if (const auto index = find(before[0]); index != absent) {  // absent: `before` is wrong
+                storage_.assign(before[0], static_cast<index_t>(longer - 1));
+                storage_.assign(before[0], index);
+            }
         }
     } catch (...) {
         for (const auto i : changed)  // no former id was at such an i: before[i] is not after[i]
@@ -289,6 +290,7 @@ void id_map<Storage>::link(std::span<const id_type> after, index_t index, std::s
     }
     while (links[static_cast<std::size_t>(at)] != absent && links[static_cast<std::size_t>(at)] < index)
         at = links[static_cast<std::size_t>(at)];
+    if (links[static_cast<std::size_t>(at)] == index) return;  // `before` was wrong: a link to itself would be a cycle
     own = links[static_cast<std::size_t>(at)];
     links[static_cast<std::size_t>(at)] = index;
 }

@@ -39,10 +39,10 @@ template <particle_id Id>
 [[nodiscard]] constexpr id_range<Id> range_of(std::span<const Id> ids) noexcept {
     constexpr std::size_t lanes = 4;
     id_range<Id> lane[lanes];
-    std::size_t i = 0;
-    for (; i + lanes <= ids.size(); i += lanes)
+    const std::size_t whole = ids.size() / lanes * lanes;
+    for (std::size_t i = 0; i < whole; i += lanes)
         for (std::size_t k = 0; k < lanes; ++k) lane[k] = lane[k].with(ids[i + k]);
-    for (; i < ids.size(); ++i) lane[0] = lane[0].with(ids[i]);
+    for (const Id id : ids.last(ids.size() % lanes)) lane[0] = lane[0].with(id);
     for (std::size_t k = 1; k < lanes; ++k) {
         lane[0].lowest = (std::min)(lane[0].lowest, lane[k].lowest);
         lane[0].highest = (std::max)(lane[0].highest, lane[k].highest);

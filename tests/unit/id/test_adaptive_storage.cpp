@@ -146,7 +146,8 @@ TEST_CASE("a memory limit that refuses the pick leads to flat lines, and a small
 
     adaptive_storage<> none{tsubu::memory_limit{0}};
     build(none, {});
-    for (const auto& [choice, refused] : one_for_each_table()) CHECK_THROWS_AS(build(none, refused), tsubu::limit_error);
+    for (const auto& [choice, refused] : one_for_each_table())
+        CHECK_THROWS_AS(build(none, refused), tsubu::limit_error);
     CHECK_THROWS_AS(none.assign(1, 1), tsubu::limit_error);
     CHECK(none.size() == 0);
 }

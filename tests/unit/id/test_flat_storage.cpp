@@ -119,8 +119,8 @@ struct each_instruction_set {
     ~each_instruction_set() { tsubu::use_instruction_set(tsubu::supported_instruction_set()); }
     template <class Body>
     void run(Body&& body) const {
-        for (const auto set : {tsubu::instruction_set::portable, tsubu::instruction_set::avx2,
-                               tsubu::instruction_set::avx512}) {
+        for (const auto set :
+             {tsubu::instruction_set::portable, tsubu::instruction_set::avx2, tsubu::instruction_set::avx512}) {
             tsubu::use_instruction_set(set);
             body();
         }
@@ -147,9 +147,10 @@ TEMPLATE_TEST_CASE("ranges of every number of bits are told apart exactly", "[id
         constexpr auto most = static_cast<unsigned>(std::numeric_limits<TestType>::digits);
         for (unsigned bits = 1; bits <= most; ++bits) {
             // The lowest id at 0, and the highest at the end of the type.
-            const auto at_the_end = static_cast<TestType>(
-                (std::numeric_limits<TestType>::max)() - (bits == most ? (std::numeric_limits<TestType>::max)()
-                                                                       : static_cast<TestType>((TestType{1} << bits) - 1)));
+            const auto at_the_end =
+                static_cast<TestType>((std::numeric_limits<TestType>::max)() -
+                                      (bits == most ? (std::numeric_limits<TestType>::max)()
+                                                    : static_cast<TestType>((TestType{1} << bits) - 1)));
             for (const auto offset : {TestType{0}, at_the_end}) {
                 flat_storage<TestType> storage;
                 const auto ids = random_ids<TestType>(300, bits, bits, offset);
@@ -209,7 +210,8 @@ TEST_CASE("from two million ids on one thread deals them out as several do", "[i
     const std::size_t count = 2'000'000;
     ids_t ids(count);
     for (std::size_t i = 0; i < count; ++i)
-        ids[i] = static_cast<std::int64_t>((i % (count - count / 8)) * 0x9e3779b97f4a7c15U & ((std::uint64_t{1} << 40) - 1));
+        ids[i] =
+            static_cast<std::int64_t>((i % (count - count / 8)) * 0x9e3779b97f4a7c15U & ((std::uint64_t{1} << 40) - 1));
     flat_storage<> one;
     flat_storage<> several;
     const auto links = build(one, ids);
@@ -243,7 +245,9 @@ TEST_CASE("ids made to collide under some multipliers take another", "[id][flat_
 TEST_CASE("ids that spill over several lines and into the stash are found, replaced and erased",
           "[id][flat_storage][A1][A13]") {
     for (const unsigned bits : {24U, 40U}) {
-        auto ids = ids_made_to_collide(bits, 1, bits == 24 ? 85 : 50);  // more than the free slots, less than these and the stash
+        auto ids =
+            ids_made_to_collide(bits, 1,
+                                bits == 24 ? 85 : 50);  // more than the free slots, less than these and the stash
         const auto different = ids.size();
         for (std::size_t i = 0; i < different; ++i) ids.push_back(ids[different - 1 - i]);
         for (std::size_t i = 0; i < 2000; ++i)  // room around them
@@ -353,7 +357,8 @@ TEST_CASE("where memory ends, threads or not, the old table is intact", "[id][fl
 TEST_CASE("a flat table past the memory limit is refused, and the old one stays", "[id][flat_storage][T10]") {
     flat_storage<> storage{tsubu::memory_limit{4096}};
     build(storage, ids_t{1, 2, 3});
-    CHECK(says(thrown<tsubu::limit_error>([&] { build(storage, random_ids<std::int64_t>(1000, 20, 1)); }), "flat_storage"));
+    CHECK(says(thrown<tsubu::limit_error>([&] { build(storage, random_ids<std::int64_t>(1000, 20, 1)); }),
+               "flat_storage"));
     CHECK_THROWS_AS(storage.reserve(10'000), tsubu::limit_error);
     CHECK(storage.find(2) == 1);
     CHECK(storage.size() == 3);

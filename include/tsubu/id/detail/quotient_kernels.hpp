@@ -9,7 +9,8 @@
 
 #include <tsubu/id/detail/quotient_lines.hpp>
 
-#include <cstdint>  // std::uint32_t
+#include <cstdint>      // std::uint32_t
+#include <type_traits>  // std::is_signed_v
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>  // the functions below carry the target attributes that it needs
@@ -210,21 +211,16 @@ struct avx512_kernels {
     }
 
 private:
+    // By size and sign, not by name: long and long long may both have 64 bits.
+    template <class Id>
     [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq"), gnu::always_inline]] static inline __m512i load_8(
-        const std::int64_t* ids) noexcept {
-        return _mm512_loadu_si512(ids);
-    }
-    [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq"), gnu::always_inline]] static inline __m512i load_8(
-        const std::uint64_t* ids) noexcept {
-        return _mm512_loadu_si512(ids);
-    }
-    [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq"), gnu::always_inline]] static inline __m512i load_8(
-        const std::int32_t* ids) noexcept {
-        return _mm512_cvtepi32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)));
-    }
-    [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq"), gnu::always_inline]] static inline __m512i load_8(
-        const std::uint32_t* ids) noexcept {
-        return _mm512_cvtepu32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)));
+        const Id* ids) noexcept {
+        if constexpr (sizeof(Id) == 8)
+            return _mm512_loadu_si512(ids);
+        else if constexpr (std::is_signed_v<Id>)
+            return _mm512_cvtepi32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)));
+        else
+            return _mm512_cvtepu32_epi64(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids)));
     }
     template <class Layout>
     [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq"), gnu::always_inline]] static inline __m512i set1_mask(
@@ -366,17 +362,14 @@ private:
     [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load(const void* from) noexcept {
         return _mm256_load_si256(static_cast<const __m256i*>(from));
     }
-    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load_4(const std::int64_t* ids) noexcept {
-        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
-    }
-    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load_4(const std::uint64_t* ids) noexcept {
-        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
-    }
-    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load_4(const std::int32_t* ids) noexcept {
-        return _mm256_cvtepi32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)));
-    }
-    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load_4(const std::uint32_t* ids) noexcept {
-        return _mm256_cvtepu32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)));
+    template <class Id>
+    [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i load_4(const Id* ids) noexcept {
+        if constexpr (sizeof(Id) == 8)
+            return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
+        else if constexpr (std::is_signed_v<Id>)
+            return _mm256_cvtepi32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)));
+        else
+            return _mm256_cvtepu32_epi64(_mm_loadu_si128(reinterpret_cast<const __m128i*>(ids)));
     }
     /// The low halves of four and four 64-bit words, in order.
     [[gnu::target("avx2"), gnu::always_inline]] static inline __m256i low_words(__m256i first,

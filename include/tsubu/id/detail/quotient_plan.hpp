@@ -179,8 +179,9 @@ inline constexpr cache_line vacant_lines[extra_lines + 1] = {};
 /// taken(value).
 template <class Taken>
 [[nodiscard]] std::uint64_t value_beside(std::uint64_t lowest, std::uint64_t highest, Taken&& taken) noexcept {
-    if (lowest != 0) return lowest - 1;
-    if (highest != ~std::uint64_t{0}) return highest + 1;
+    // Far from both ends: ids that count up or down from them must not meet it. For signed ids it is -1, never an id.
+    if (highest != ~std::uint64_t{0}) return ~std::uint64_t{0};
+    if (lowest != 0) return 0;
     for (std::uint64_t k = 0;; ++k) {  // fewer than 2^31 of 2^64 values are taken: the first try succeeds
         const auto value = splitmix64(k);
         if (!taken(value)) return value;

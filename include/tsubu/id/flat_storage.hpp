@@ -31,13 +31,11 @@ namespace tsubu {
 ///
 /// Concept:       id_storage, batched_lookup (AVX2, AVX-512), prefetchable, parallel_rebuild.
 /// Cost:          find one cache line, and no branch that depends on where in it the id is, or whether; rebuild O(N)
-/// for
-///                every pattern of ids, by direct insertion or, from 2e6 ids on and with several threads, dealt out
-///                into parts of the table; assign O(1) amortised; erase O(1).
+///                for every pattern of ids, by direct insertion or, from 2e6 ids on and with several threads, dealt
+///                out into parts of the table; assign O(1) amortised; erase O(1).
 /// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines); while a dealt rebuild runs 8 | 16 | 16 more.
-/// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot of
-/// an
-///                erased id is taken by the same id again, or freed at the next rebuild or growth.
+/// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot
+///                of an erased id is taken by the same id again, or freed at the next rebuild or growth.
 /// Deterministic: yes, on any number of threads and with any instruction set.
 /// Choose it when ids are sparse, strided, clustered, or unknown.
 /// Do not when    ids fill their range: dense_storage is two to five times faster there.

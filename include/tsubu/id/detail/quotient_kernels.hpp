@@ -113,8 +113,7 @@ struct avx512_kernels {
             for (std::uint32_t k = 0; k < block_size; k += 16) {
                 const __m512i x0 = _mm512_sub_epi64(load_8(ids + k), base);
                 const __m512i x1 = _mm512_sub_epi64(load_8(ids + k + 8), base);
-                const auto inside = static_cast<__mmask16>(_mm512_cmple_epu64_mask(x0, limit) |
-                                                           _mm512_cmple_epu64_mask(x1, limit) << 8);
+                const __mmask16 inside = join(_mm512_cmple_epu64_mask(x0, limit), _mm512_cmple_epu64_mask(x1, limit));
                 const __m512i x = _mm512_permutex2var_epi32(x0, low_words, x1);
                 const __m512i h = _mm512_mullo_epi32(_mm512_xor_si512(x, _mm512_srl_epi32(x, fold)), multiplier);
                 // 32 x 32 -> 64 bits for the even and the odd words; place = product >> 28 in each.
@@ -179,7 +178,7 @@ struct avx512_kernels {
             const auto left = static_cast<__mmask16>(taken & ~match);
             const __m512i number = _mm512_add_epi32(counting, _mm512_set1_epi32(static_cast<int>(k)));
             _mm512_storeu_si512(queue + queued, _mm512_maskz_compress_epi32(left, number));
-            queued += static_cast<std::uint32_t>(_mm_popcnt_u32(left));
+            queued += static_cast<std::uint32_t>(_mm_popcnt_u32(number_of(left)));
         }
         return queued;
     }
@@ -196,11 +195,11 @@ struct avx512_kernels {
             const __m512i line = _mm512_load_si512(table.slots<Layout>() + first);
             std::uint32_t found;
             if constexpr (Layout::slots == 16)
-                found = _mm512_cmpeq_epi32_mask(_mm512_and_si512(line, mask),
-                                                _mm512_set1_epi32(static_cast<int>(block.tag[k])));
+                found = number_of(_mm512_cmpeq_epi32_mask(_mm512_and_si512(line, mask),
+                                                          _mm512_set1_epi32(static_cast<int>(block.tag[k]))));
             else
-                found = _mm512_cmpeq_epi64_mask(_mm512_and_si512(line, mask),
-                                                _mm512_set1_epi64(static_cast<long long>(block.tag[k])));
+                found = number_of(_mm512_cmpeq_epi64_mask(_mm512_and_si512(line, mask),
+                                                          _mm512_set1_epi64(static_cast<long long>(block.tag[k]))));
             const auto at = first + first_match<Layout, 1>(found);
             const auto index = index_at<Layout>(table, at);
             out[k] = index_if(found != 0, index);
@@ -230,8 +229,15 @@ private:
         else
             return _mm512_set1_epi64(static_cast<long long>(table.tag_mask));
     }
-    static constexpr __mmask16 join(__mmask8 low, __mmask8 high) noexcept {
-        return static_cast<__mmask16>(low | high << 8);
+    /// A mask in a general register. GCC 12 may spill a mask as 16 bits and read it back as 32, whose upper half is then
+    /// whatever lay there before (seen with -O1 -fsanitize=undefined); an instruction of our own leaves it no choice.
+    [[gnu::target("avx512f"), gnu::always_inline]] static inline std::uint32_t number_of(__mmask16 mask) noexcept {
+        std::uint32_t number;
+        asm("kmovw %1, %0" : "=r"(number) : "k"(mask));
+        return number;
+    }
+    [[gnu::target("avx512bw"), gnu::always_inline]] static inline __mmask16 join(__mmask8 low, __mmask8 high) noexcept {
+        return _mm512_kunpackb(high, low);
     }
 };
 

@@ -60,6 +60,7 @@ public:
           stash_(other.stash_),
           table_(other.table_),
           lines_(other.lines_),
+          find_(other.find_),
           size_(other.size_),
           used_(other.used_),
           room_(other.room_),
@@ -77,24 +78,18 @@ public:
     ~flat_storage() = default;
 
     [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
-        // The third kind is a call: three in a loop cost a fifth of the time of each.
-        if (lines_ == flat_lines::narrow) return find_in<detail::narrow_lines>(id);
-        if (lines_ == flat_lines::wide) return find_in<detail::wide_lines>(id);
-        return find_keyed(id);
+        return find_(table_, stash_, static_cast<std::uint64_t>(id));
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         const auto blocks = ids.size() / detail::block_size;
-        with_lines([&]<class Layout>(Layout) {
-            if (blocks != 0)
+        if (blocks != 0)
+            with_lines([&]<class Layout>(Layout) {
                 detail::with_kernels([&]<class Kernels>(Kernels) {
                     detail::find_blocks<Kernels, Layout>(table_, stash_.entries(), ids.data(), blocks, indices.data(),
                                                          exceeds_cache());
                 });
-            const auto done = blocks * detail::block_size;
-            for (std::size_t k = 0; k < ids.size() % detail::block_size; ++k)
-                indices[done + k] =
-                    detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(ids[done + k]));
-        });
+            });
+        for (std::size_t k = blocks * detail::block_size; k < ids.size(); ++k) indices[k] = find(ids[k]);
     }
     void prefetch(Id id) const noexcept {
         with_lines([&]<class Layout>(Layout) {
@@ -200,6 +195,7 @@ public:
 private:
     using table_memory = buffer<detail::cache_line, Allocator>;
     using spills = detail::spill_list<Allocator>;
+    using find_function = index_t (*)(const detail::line_table&, const spills&, std::uint64_t) noexcept;
 
     static constexpr std::size_t dealing_threshold = 2'000'000;  // below, direct insertion is as fast on one thread
     static constexpr std::size_t threading_threshold = 1 << 14;  // below, starting threads takes longer than inserting
@@ -216,11 +212,15 @@ private:
     [[gnu::always_inline]] decltype(auto) with_lines(Call&& call) const {
         return with_lines(lines_, std::forward<Call>(call));
     }
-    template <class Layout>
-    [[nodiscard, gnu::always_inline]] index_t find_in(Id id) const noexcept {
-        return detail::find_one<Layout>(table_, stash_.entries(), static_cast<std::uint64_t>(id));
+    /// The look-up of one id in lines of this kind. A call through a pointer costs less than the vectors that code
+    /// compiled for any machine must do without.
+    [[nodiscard]] static find_function find_for(flat_lines lines) noexcept {
+        find_function chosen = nullptr;
+        with_lines(lines, [&]<class Layout>(Layout) {
+            detail::with_kernels([&]<class Kernels>(Kernels) { chosen = &Kernels::template find<Layout, spills>; });
+        });
+        return chosen;
     }
-    [[nodiscard, gnu::noinline]] index_t find_keyed(Id id) const noexcept { return find_in<detail::keyed_lines>(id); }
     [[nodiscard]] bool may_hold(std::uint64_t key) const noexcept {
         return with_lines([&]<class Layout>(Layout) { return table_.may_hold<Layout>(key - table_.base); });
     }
@@ -230,6 +230,7 @@ private:
         std::swap(stash_, other.stash_);
         std::swap(table_, other.table_);
         std::swap(lines_, other.lines_);
+        std::swap(find_, other.find_);
         std::swap(size_, other.size_);
         std::swap(used_, other.used_);
         std::swap(room_, other.room_);
@@ -259,6 +260,7 @@ private:
             if (!keep) memory_.swap(fresh);
             if (!keep_stash) std::swap(stash_, fresh_stash);
             lines_ = plan.lines;
+            find_ = find_for(lines_);
             table_ = plan.table;
             detail::attach(table_, memory_.data());
             room_ = plan.room;
@@ -298,7 +300,7 @@ private:
         return with_lines([&]<class Layout>(Layout) {
             const auto at = table_.locate<Layout>(key - table_.base);
             const auto index_plus_1 = static_cast<std::uint32_t>(index) + 1;
-            const auto former = detail::find_beyond<Layout>(table_, stash_.entries(), at.place, at.tag);
+            const auto former = find_(table_, stash_, key);
             detail::line_filler<Layout> filler(table_, table_.lines + detail::spill_lines, nullptr);
             if (!filler.insert(at.place, at.tag, index_plus_1) &&
                 !detail::insert_into_stash(filler, stash_,
@@ -347,6 +349,7 @@ private:
             larger.memory_ = table_memory(needed, memory_.get_allocator());
             larger.stash_.reserve(plan.stash_capacity);
             larger.lines_ = plan.lines;
+            larger.find_ = find_for(plan.lines);
             larger.table_ = plan.table;
             detail::attach(larger.table_, larger.memory_.data());
             detail::wipe(larger.table_, larger.lines_);
@@ -388,6 +391,7 @@ private:
     spills stash_;
     detail::line_table table_ = detail::no_lines();
     flat_lines lines_ = flat_lines::narrow;
+    find_function find_ = &detail::portable_kernels::find<detail::narrow_lines, spills>;
     std::size_t size_ = 0;          // ids present
     std::size_t used_ = 0;          // slots that are not empty: present ids and erased ones
     std::size_t room_ = 0;          // used_ may reach this before the table grows

@@ -69,20 +69,25 @@ public:
         : table_(table), end_line_(end_line), links_(links) {}
 
     /// @return false if the id found no place up to end_line: it is the caller's then.
-    bool insert(std::uint64_t place, Slot tag, std::uint32_t index_plus_1) noexcept {
-        const auto end = walk<Layout>(table_, place, tag, end_line_);
+    [[gnu::always_inline]] bool insert(std::uint64_t place, Slot tag, std::uint32_t index_plus_1) noexcept {
+        const auto* const line = table_.slots<Layout>() + (place & ~std::uint64_t{Layout::slots - 1});
+        const auto same = matches<Layout>(line, tag, static_cast<Slot>(table_.tag_mask));
+        const auto vacant = matches<Layout>(line, 0, static_cast<Slot>(~Slot{0}));
+        if ((same | vacant) == 0) [[unlikely]]
+            return insert_beyond(place, tag, index_plus_1);
+        repeated_ +=
+            put_in_home_line<Layout, 16 / Layout::slots>(table_, links_, place, tag, index_plus_1, same, vacant);
+        return true;
+    }
+    /// The same once the home line is known to be full.
+    [[gnu::noinline]] bool insert_beyond(std::uint64_t place, Slot tag, std::uint32_t index_plus_1) noexcept {
         const auto home = place / Layout::slots;
-        if (end.what == search_end::outcome::match) {
-            link(index_plus_1, index_at<Layout>(table_, end.place));
-            write_slot<Layout>(table_, end.place, probe_tag(tag, end.probe), index_plus_1);
-            return true;
-        }
-        if (end.what == search_end::outcome::boundary) {
-            mark(home, (std::min)(home + table_.most_probes, end_line_));
-            return false;
-        }
-        mark(home, home + end.probe);
-        write_slot<Layout>(table_, end.place, probe_tag(tag, end.probe), index_plus_1);
+        const auto end = walk<Layout>(table_, place, tag, end_line_);
+        table_.overflow[home / 64] |= std::uint64_t{1} << (home % 64);
+        if (end.what == search_end::outcome::boundary) return false;
+        if (end.what == search_end::outcome::match) link(index_plus_1, index_at<Layout>(table_, end.place));
+        write_slot<Layout>(table_, end.place, static_cast<Slot>(tag + static_cast<Slot>(end.probe * table_.tag_step)),
+                           index_plus_1);
         return true;
     }
     /// Links `index_plus_1` to the copy that it replaces.
@@ -93,13 +98,6 @@ public:
     [[nodiscard]] std::size_t repeated() const noexcept { return repeated_; }
 
 private:
-    [[nodiscard]] Slot probe_tag(Slot tag, std::uint32_t probe) const noexcept {
-        return static_cast<Slot>(tag + static_cast<Slot>(probe * table_.tag_step));
-    }
-    void mark(std::uint64_t from, std::uint64_t to) noexcept {
-        for (auto line = from; line < to; ++line) table_.overflow[line / 64] |= std::uint64_t{1} << (line % 64);
-    }
-
     const line_table& table_;
     std::uint64_t end_line_;
     index_t* links_;
@@ -127,47 +125,60 @@ std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const
                          bool prefetch) noexcept {
     using Slot = typename Layout::slot_type;
     line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
-    Slot* const slots = table.slots<Layout>();
-    const auto insert_slowly = [&](std::uint64_t place, Slot tag, std::uint32_t index_plus_1) {
-        return filler.insert(place, tag, index_plus_1) ||
-               insert_into_stash(filler, stash, {tag, static_cast<std::uint32_t>(place), index_plus_1});
+    const auto into_stash = [&](std::uint64_t place, Slot tag, std::uint32_t index_plus_1) {
+        return insert_into_stash(filler, stash, {tag, static_cast<std::uint32_t>(place), index_plus_1});
     };
-    if (!links.empty()) std::fill_n(links.data(), links.size(), absent);
-
     const std::size_t blocks = ids.size() / block_size;
+    if (!links.empty()) std::fill_n(links.data() + blocks * block_size, ids.size() % block_size, absent);
     for (std::size_t i = ids.size(); i-- > blocks * block_size;) {
         const auto at = table.locate<Layout>(static_cast<std::uint64_t>(ids[i]) - table.base);
-        if (!insert_slowly(at.place, at.tag, static_cast<std::uint32_t>(i + 1))) return no_fit;
+        const auto index_plus_1 = static_cast<std::uint32_t>(i + 1);
+        if (!filler.insert(at.place, at.tag, index_plus_1) && !into_stash(at.place, at.tag, index_plus_1))
+            return no_fit;
     }
-    if (blocks == 0) return filler.repeated();
 
-    id_block<Layout> ring[2];
-    const auto locate = [&](std::size_t b) {
-        auto& block = ring[b % 2];
-        Kernels::template locate<Layout>(table, ids.data() + b * block_size, block);
-        if (prefetch)
-            for (std::uint32_t k = 0; k < block_size; ++k) __builtin_prefetch(slots + block.place[k], 1);
-    };
-    locate(blocks - 1);
-    for (std::size_t b = blocks; b-- > 0;) {
-        if (b > 0) locate(b - 1);
-        const auto& block = ring[b % 2];
-        const auto first_index = static_cast<std::uint32_t>(b * block_size + 1);
-        // An empty preferred slot takes the id without a branch. The others wait in the queue: two copies of one id
-        // meet the same slot, so both wait, in their order.
-        std::uint32_t queue[block_size];
-        std::uint32_t queued = 0;
-        for (std::uint32_t k = block_size; k-- > 0;) {
-            const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], first_index + k);
-            queue[queued] = k;
-            queued += static_cast<std::uint32_t>(taken);
+    // Three blocks at once, as in a batched look-up. An empty preferred slot takes the id without a branch. The others
+    // wait in the queue, until the stores of their block no longer stall the vector loads of their lines. Two copies
+    // of one id meet the same slot: so the second waits behind the first, and they are linked in their order.
+    id_block<Layout> ring[3];
+    std::uint32_t queue[3][block_size];
+    std::uint32_t queued[3];
+    std::size_t repeated = 0;
+    for (std::size_t step = 0; step < blocks + 2; ++step) {
+        if (step < blocks) {
+            auto& block = ring[step % 3];
+            Kernels::template locate<Layout>(table, ids.data() + (blocks - 1 - step) * block_size, block);
+            if (prefetch) prefetch_places<Layout, 1>(table, block);
         }
-        for (std::uint32_t q = 0; q < queued; ++q) {
-            const auto k = queue[q];
-            if (!insert_slowly(block.place[k], block.tag[k], first_index + k)) return no_fit;
+        if (step >= 1 && step - 1 < blocks) {
+            const auto& block = ring[(step - 1) % 3];
+            auto& waiting = queue[(step - 1) % 3];
+            const auto first = (blocks - step) * block_size;
+            if (!links.empty()) std::fill_n(links.data() + first, block_size, absent);
+            std::uint32_t count = 0;
+            for (std::uint32_t k = block_size; k-- > 0;) {
+                const auto index_plus_1 = static_cast<std::uint32_t>(first + k + 1);
+                const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], index_plus_1);
+                waiting[count] = k;
+                count += static_cast<std::uint32_t>(taken);
+            }
+            queued[(step - 1) % 3] = count;
+        }
+        if (step >= 2) {
+            const auto& block = ring[(step - 2) % 3];
+            auto& waiting = queue[(step - 2) % 3];
+            const auto first = static_cast<std::uint32_t>((blocks + 1 - step) * block_size + 1);
+            const auto kept = Kernels::template insert<Layout>(table, block, first, links.data(), waiting,
+                                                               queued[(step - 2) % 3], repeated);
+            for (std::uint32_t q = 0; q < kept; ++q) {
+                const auto k = waiting[q];
+                if (!filler.insert_beyond(block.place[k], block.tag[k], first + k) &&
+                    !into_stash(block.place[k], block.tag[k], first + k))
+                    return no_fit;
+            }
         }
     }
-    return filler.repeated();
+    return filler.repeated() + repeated;
 }
 
 /// What is dealt out to the parts: enough to insert the id without the id.

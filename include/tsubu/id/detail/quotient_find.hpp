@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Look-up in quotient lines: one id, or blocks of ids on their way through three steps at once.
+/// Batched look-up in quotient lines: blocks of ids on their way through three steps at once.
 #pragma once
 
 #include <tsubu/core/instruction_set.hpp>
+#include <tsubu/id/detail/quotient_avx2.hpp>
+#include <tsubu/id/detail/quotient_avx512.hpp>
 #include <tsubu/id/detail/quotient_kernels.hpp>
 #include <tsubu/id/detail/quotient_lines.hpp>
 
@@ -13,44 +15,16 @@
 
 namespace tsubu::detail {
 
-/// An id that found no place in its lines: (place, tag) name it as exactly as the id does.
-struct spilled_id {
-    std::uint64_t tag;
-    std::uint32_t place;
-    std::uint32_t index_plus_1;
-};
-
-/// The rare rest of a look-up: the lines after the home line, then the stash.
-template <class Layout>
-[[nodiscard, gnu::noinline]] index_t find_beyond(const line_table& table, std::span<const spilled_id> stash,
-                                                 std::uint64_t place, typename Layout::slot_type tag) noexcept {
-    const auto end = walk<Layout>(table, place, tag, table.lines + spill_lines);
-    if (end.what == search_end::outcome::match) return static_cast<index_t>(index_at<Layout>(table, end.place)) - 1;
-    if (end.what == search_end::outcome::boundary)
-        for (const auto& entry : stash)
-            if (entry.place == place && entry.tag == tag) return static_cast<index_t>(entry.index_plus_1) - 1;
-    return absent;
-}
-
-/// One id. No branch depends on whether it is there, nor in which slot: looking at the preferred slot first would save
-/// a third of the instructions on hits, but its mispredicted branches double the time of misses.
-template <class Layout>
-[[nodiscard, gnu::always_inline]] inline index_t find_one(const line_table& table, std::span<const spilled_id> stash,
-                                                          std::uint64_t id) noexcept {
-    using Slot = typename Layout::slot_type;
-    const auto x = id - table.base;
-    if (!table.may_hold<Layout>(x)) return absent;
-    const auto at = table.locate<Layout>(x);
-    const auto first = at.place & ~std::uint64_t{Layout::slots - 1};
-    const auto found = matches<Layout>(table.slots<Layout>() + first, at.tag, static_cast<Slot>(table.tag_mask));
-    const auto index = index_at<Layout>(table, first + first_match<Layout>(found));
-    if ((static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots)) != 0) [[unlikely]]
-        return find_beyond<Layout>(table, stash, at.place, at.tag);
-    return index_if(found != 0, index);
-}
-
 /// From this size on a table does not stay in the second-level cache, and prefetching pays. [bytes]
 inline constexpr std::size_t prefetch_threshold = std::size_t{1} << 20;
+
+/// Asks for the preferred slots of a block, and the indices beside keyed ones; to be written if Write.
+template <class Layout, int Write>
+[[gnu::always_inline]] inline void prefetch_places(const line_table& table, const id_block<Layout>& block) noexcept {
+    for (std::uint32_t k = 0; k < block_size; ++k) __builtin_prefetch(table.slots<Layout>() + block.place[k], Write);
+    if constexpr (Layout::keyed)
+        for (std::uint32_t k = 0; k < block_size; ++k) __builtin_prefetch(table.indices + block.place[k], Write);
+}
 
 /// Many ids: while block b is hashed and prefetched, the preferred slots of block b - 1 are loaded and block b - 2 is
 /// compared. The loads are plain scalar ones (a gather instruction is no faster, and slower on some processors); the
@@ -66,8 +40,7 @@ void find_blocks(const line_table& table, std::span<const spilled_id> stash, con
         if (b < blocks) {
             auto& block = ring[b % 3];
             Kernels::template locate<Layout>(table, ids + b * block_size, block);
-            if (prefetch)
-                for (std::uint32_t k = 0; k < block_size; ++k) __builtin_prefetch(slots + block.place[k]);
+            if (prefetch) prefetch_places<Layout, 0>(table, block);
         }
         if (b >= 1 && b - 1 < blocks) {
             auto& block = ring[(b - 1) % 3];

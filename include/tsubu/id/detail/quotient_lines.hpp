@@ -33,6 +33,7 @@
 #include <bit>      // std::countr_zero
 #include <cstddef>  // std::byte
 #include <cstdint>  // std::uint32_t
+#include <span>     // std::span
 
 #if defined(__SSE2__)
 #include <emmintrin.h>  // part of every x86-64
@@ -232,6 +233,57 @@ template <class Layout>
         tag = static_cast<Slot>(tag + static_cast<Slot>(table.tag_step));
     }
     return {};
+}
+
+/// An id that found no place in its lines: (place, tag) name it as exactly as the id does.
+struct spilled_id {
+    std::uint64_t tag;
+    std::uint32_t place;
+    std::uint32_t index_plus_1;
+};
+
+/// The rare rest of a look-up, if the home line is full and does not hold the id: the lines after it, then the stash.
+template <class Layout>
+[[nodiscard, gnu::noinline]] index_t find_beyond(const line_table& table, std::span<const spilled_id> stash,
+                                                 std::uint64_t place, typename Layout::slot_type tag) noexcept {
+    if (table.overflow_bit(place / Layout::slots) == 0) return absent;
+    const auto end = walk<Layout>(table, place, tag, table.lines + spill_lines);
+    if (end.what == search_end::outcome::match) return static_cast<index_t>(index_at<Layout>(table, end.place)) - 1;
+    if (end.what == search_end::outcome::boundary)
+        for (const auto& entry : stash)
+            if (entry.place == place && entry.tag == tag) return static_cast<index_t>(entry.index_plus_1) - 1;
+    return absent;
+}
+
+/// The answer for one id, once its home line is compared: found is not 0 if it is there, in the slot that was read. No
+/// branch depends on whether it is there, nor in which slot: looking at the preferred slot first would save some
+/// instructions on hits, but its mispredicted branches double the time of misses.
+template <class Layout>
+[[nodiscard, gnu::always_inline]] inline index_t answer(const line_table& table, std::uint64_t slot_read,
+                                                        typename Layout::slot_type tag, std::uint32_t found) noexcept {
+    if constexpr (Layout::keyed)
+        return index_if(found != 0, table.indices[slot_read]);
+    else  // a slot that matches is the tag and the index
+        return index_if(found != 0, static_cast<std::uint32_t>(table.slots<Layout>()[slot_read] - tag));
+}
+
+/// Stores an id in its home line, which has a match for it or a vacant slot: at the match, else in the first vacant
+/// slot from the preferred one on. Which of them it is decides no branch. @return 1 if there was a match, else 0.
+template <class Layout, std::uint32_t BitsPerSlot>
+[[gnu::always_inline]] inline std::uint32_t put_in_home_line(const line_table& table, index_t* links,
+                                                             std::uint64_t place, typename Layout::slot_type tag,
+                                                             std::uint32_t index_plus_1, std::uint32_t same,
+                                                             std::uint32_t vacant) noexcept {
+    constexpr std::uint32_t line_bits = Layout::slots * BitsPerSlot;
+    const auto preferred = static_cast<std::uint32_t>(place % Layout::slots);
+    const auto from_preferred = (vacant | vacant << line_bits) >> (preferred * BitsPerSlot);
+    const auto free_slot = preferred + first_match<Layout, BitsPerSlot>(from_preferred);
+    const auto is_repeated = static_cast<std::uint32_t>(same != 0);
+    const auto slot = same != 0 ? first_match<Layout, BitsPerSlot>(same) : free_slot;
+    const auto at = (place & ~std::uint64_t{Layout::slots - 1}) + slot % Layout::slots;
+    if (links != nullptr) links[index_plus_1 - 1] = static_cast<index_t>(index_at<Layout>(table, at)) - 1;
+    write_slot<Layout>(table, at, tag, index_plus_1);  // a free slot had index + 1 = 0: its link is absent
+    return is_repeated;
 }
 
 }  // namespace tsubu::detail

@@ -5,7 +5,6 @@
 
 #include <tsubu/core/executor.hpp>
 #include <tsubu/core/types.hpp>
-#include <tsubu/id/bitmap_storage.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/dense_storage.hpp>
 #include <tsubu/id/flat_storage.hpp>
@@ -26,13 +25,15 @@
 namespace tsubu {
 
 /// Where adaptive_storage keeps the ids; in the order of its tables.
-enum class adaptive_choice { flat, dense, bitmap, paged };
+enum class adaptive_choice { flat, dense, paged };
 
 /// What adaptive_storage looks at.
 struct id_distribution {
     std::size_t count = 0;     ///< number of ids, N
     std::uint64_t extent = 0;  ///< highest - lowest
-    double occupancy = 0;  ///< share of the 1024 values around an id that are taken: 1 in blocks, N / T at random [1]
+    /// Share of the 1024 values around an id that are taken: 1 in blocks, N / T at random; 0 where it does not matter,
+    /// since a dense table is chosen without it. [1]
+    double occupancy = 0;
 };
 
 /// From which pattern to which table. The numbers are the crossovers that bench/run draws (look-up and rebuild, on
@@ -40,14 +41,12 @@ struct id_distribution {
 [[nodiscard]] constexpr adaptive_choice choose_table(const id_distribution& ids) noexcept {
     constexpr std::uint64_t cached_entries = std::uint64_t{2} << 20;  // 8 MiB of indices
     constexpr std::uint64_t cached_ratio = 24;                        // up to there dense wins at 1e4 and 1e5 ids
-    constexpr std::uint64_t dense_ratio = 6;                          // beyond 8 MiB; bitmap wins from there ...
-    constexpr std::uint64_t bitmap_ratio = 16;                        // ... to here
+    constexpr std::uint64_t dense_ratio = 5;                          // beyond 8 MiB: look-ups miss the caches
     constexpr double block_occupancy = 0.375;    // from there paged takes less memory than flat, and is faster ...
     constexpr std::uint64_t paged_ratio = 2048;  // ... as long as its directory takes at most 8 bytes per id
     const auto within = [&](std::uint64_t ratio) { return ids.extent / ratio < ids.count; };
     if (within(dense_ratio) || (ids.extent < cached_entries && within(cached_ratio))) return adaptive_choice::dense;
     if (ids.occupancy >= block_occupancy && within(paged_ratio)) return adaptive_choice::paged;
-    if (ids.extent >= cached_entries && within(bitmap_ratio)) return adaptive_choice::bitmap;
     return adaptive_choice::flat;
 }
 
@@ -83,9 +82,9 @@ template <particle_id Id>
 ///
 /// Concept:       id_storage, batched_lookup, prefetchable, parallel_rebuild.
 /// Cost:          that of the chosen table, one predictable branch per call, and .2 ns per id for looking.
-/// Bytes per id:  8 | 16 | 20 in flat lines; 4 T / N where it picks dense, so up to 96 for small tables (8 MiB) and 24
-///                for larger ones; 4 + .19 T / N in a bitmap, so up to 7; at most 20 in pages. A memory_limit that does
-///                not admit the pick leads to flat lines.
+/// Bytes per id:  8 | 16 | 20 in flat lines; 4 T / N where it picks dense, so up to 96 for small tables (8 MiB) and 20
+///                for larger ones; at most 20 in pages. A memory_limit that does not admit the pick leads to flat
+///                lines.
 /// Growth:        that of the chosen table. An assign that widens the range so far that another table suits moves the
 ///                ids to flat lines, in O(N); back only at a rebuild.
 /// Deterministic: yes: the choice depends on the ids and the limit alone.
@@ -103,10 +102,7 @@ public:
         : table_(std::in_place_type<flat>, limit, allocator), limit_(limit) {}
 
     [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
-        // The other two are a call: four tables in one loop leave no registers to any.
-        if (const auto* const table = std::get_if<flat>(&table_)) return table->find(id);
-        if (const auto* const table = std::get_if<dense>(&table_)) return table->find(id);
-        return find_in_others(id);
+        return with_table([&](const auto& table) { return table.find(id); });
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         with_table([&](const auto& table) { table.find(ids, indices); });
@@ -122,12 +118,15 @@ public:
     template <executor Executor>
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links, const Executor& on) {
         if (ids.empty()) return clear();
-        const id_distribution seen{ids.size(), range.extent(), detail::sampled_occupancy(ids)};
+        id_distribution seen{ids.size(), range.extent(), 0};
         auto wanted = choose_table(seen);
+        if (wanted != adaptive_choice::dense) {
+            seen.occupancy = detail::sampled_occupancy(ids);
+            wanted = choose_table(seen);
+        }
         if (!admits(wanted, seen)) wanted = adaptive_choice::flat;
         switch (wanted) {
             case adaptive_choice::dense: rebuild_as<dense>(ids, range, links, on); break;
-            case adaptive_choice::bitmap: rebuild_as<bitmap>(ids, range, links, on); break;
             case adaptive_choice::paged: try { rebuild_as<paged>(ids, range, links, on);
                 } catch (const limit_error&) {  // more pages than the sample promised
                     rebuild_as<flat>(ids, range, links, on);
@@ -188,10 +187,6 @@ public:
         switch (choice()) {
             case adaptive_choice::dense:
                 return "dense_storage: " + numbers + " fill enough of their range for an array of it";
-            case adaptive_choice::bitmap:
-                return "bitmap_storage: " + numbers +
-                       " are too many for an array of their range in the caches, and dense "
-                       "enough for a bitmap of it";
             case adaptive_choice::paged:
                 return "paged_storage: " + numbers + " come in blocks, " +
                        std::to_string(static_cast<int>(100 * seen_.occupancy)) +
@@ -205,7 +200,6 @@ public:
 private:
     using flat = flat_storage<Id, Allocator>;
     using dense = dense_storage<Id, Allocator>;
-    using bitmap = bitmap_storage<Id, Allocator>;
     using paged = paged_storage<Id, Allocator>;
 
     // Emptier pages than the sample promised would take more than flat lines do.
@@ -217,7 +211,6 @@ private:
         const auto values = ids.extent + 1;
         switch (choice) {
             case adaptive_choice::dense: return limit_.admits(values * 4 + values / 1024 + 64, ids.count);
-            case adaptive_choice::bitmap: return limit_.admits(values / 16 * 3 + ids.count * 4 + 64, ids.count);
             case adaptive_choice::paged:  // has a limit of its own, and is judged by the pages it really needs
             case adaptive_choice::flat: break;
         }
@@ -254,15 +247,11 @@ private:
         sparse.assign(id, index);
         table_ = std::move(sparse);
     }
-    [[nodiscard, gnu::noinline]] index_t find_in_others(Id id) const noexcept {
-        return with_table([&](const auto& table) { return table.find(id); });
-    }
     // Not std::visit: find() of the tables is inlined into the caller.
     template <class Self, class Call>
     [[gnu::always_inline]] static decltype(auto) with_table_of(Self& table, Call&& call) {
         if (auto* const t = std::get_if<flat>(&table)) return call(*t);
         if (auto* const t = std::get_if<dense>(&table)) return call(*t);
-        if (auto* const t = std::get_if<bitmap>(&table)) return call(*t);
         return call(*std::get_if<paged>(&table));
     }
     template <class Call>
@@ -274,7 +263,7 @@ private:
         return with_table_of(table_, call);
     }
 
-    std::variant<flat, dense, bitmap, paged> table_{};
+    std::variant<flat, dense, paged> table_{};
     id_range<Id> range_{};  // of all ids since the last rebuild or clear, erased ones included
     id_distribution seen_{};
     memory_limit limit_{};

@@ -5,6 +5,7 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/instruction_set.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/bitmap_kernels.hpp>
@@ -86,8 +87,8 @@ public:
     }
     void prefetch(Id id) const noexcept {
         if (const auto w = window().word_of(id); w < words_.size()) {
-            __builtin_prefetch(words_.data() + w);
-            __builtin_prefetch(starts_.data() + w);
+            detail::prefetch(words_.data() + w);
+            detail::prefetch(starts_.data() + w);
         }
     }
 
@@ -98,14 +99,12 @@ public:
         if (ids.empty()) return;
         const auto map = window();
         std::uint64_t* const words = words_.data();
-        for (const auto id : ids)
-            words[map.word_of(id)] |= std::uint64_t{1} << (static_cast<unsigned_type>(id) & 63U);
+        for (const auto id : ids) words[map.word_of(id)] |= std::uint64_t{1} << (static_cast<unsigned_type>(id) & 63U);
         const auto set = best_instruction_set();
         used_ = detail::bitmap_number(set, words_.data(), starts_.data(), words_.size());
         size_ = used_ - 1;
         detail::fill_absent(pool_.data(), used_);
-        detail::bitmap_insert(set, map, pool_.data(), ids.data(),
-                              links.empty() ? nullptr : links.data(), ids.size());
+        detail::bitmap_insert(set, map, pool_.data(), ids.data(), links.empty() ? nullptr : links.data(), ids.size());
     }
 
     /// @throws limit_error if the bitmap or the pool would pass the memory limit. Strong guarantee.
@@ -146,8 +145,8 @@ public:
             std::size_t place = starts_[w];
             for (auto rest = words_[w]; rest != 0; rest &= rest - 1, ++place)
                 if (pool_[place] != absent)
-                    each(static_cast<Id>(static_cast<unsigned_type>(
-                             (first_word_ + w) * word_bits + static_cast<unsigned>(std::countr_zero(rest)))),
+                    each(static_cast<Id>(static_cast<unsigned_type>((first_word_ + w) * word_bits +
+                                                                    static_cast<unsigned>(std::countr_zero(rest)))),
                          pool_[place]);
         }
     }

@@ -5,6 +5,7 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/hash.hpp>
@@ -92,7 +93,7 @@ public:
         }
     }
     void prefetch(Id id) const noexcept {
-        if (!heads_.empty()) __builtin_prefetch(heads_.data() + bucket_of(id));
+        if (!heads_.empty()) detail::prefetch(heads_.data() + bucket_of(id));
     }
 
     /// @throws limit_error if N > M and the new size passes the memory limit. Strong guarantee.
@@ -140,9 +141,7 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept {
-        return heads_.memory_bytes() + nodes_.memory_bytes();
-    }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return heads_.memory_bytes() + nodes_.memory_bytes(); }
     [[nodiscard]] Allocator get_allocator() const noexcept { return nodes_.get_allocator(); }
 
     /// M, the nodes in the pool; 0 until the first id.

@@ -6,6 +6,7 @@
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/executor.hpp>
 #include <tsubu/core/instruction_set.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/fill_absent.hpp>
@@ -50,7 +51,7 @@ namespace tsubu {
 /// Growth:        by assign at least doubling, within the memory limit; a rebuild that needs less than a quarter
 ///                gives memory back.
 /// Deterministic: yes, with any executor.
-/// Choose it when the ids fill their range: T / N up to 6, or 24 while the table is below 8 MiB (choose_table in
+/// Choose it when the ids fill their range: T / N up to 5, or 24 while the table is below 8 MiB (choose_table in
 ///                adaptive_storage.hpp).
 /// Do not when    ids are random in a wide range: beyond those ratios flat_storage is faster and smaller.
 /// Source:        A2, A3, A5.
@@ -91,7 +92,7 @@ public:
     }
     void prefetch(Id id) const noexcept {
         if (const std::uint64_t offset = offset_of(id); offset < table_.size())
-            __builtin_prefetch(table_.data() + offset);
+            detail::prefetch(table_.data() + offset);
     }
 
     /// @throws limit_error if the range needs more than the memory limit. Strong guarantee.
@@ -154,9 +155,7 @@ public:
         });
     }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept {
-        return table_.memory_bytes() + touched_.memory_bytes();
-    }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return table_.memory_bytes() + touched_.memory_bytes(); }
     /// Bounds the tables from here on; what they hold already stays.
     void limit_memory(memory_limit limit) noexcept { limit_ = limit; }
     [[nodiscard]] Allocator get_allocator() const noexcept { return table_.get_allocator(); }

@@ -6,6 +6,7 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/executor.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/quotient_build.hpp>
@@ -94,7 +95,7 @@ public:
     void prefetch(Id id) const noexcept {
         with_lines([&]<class Layout>(Layout) {
             const auto x = static_cast<std::uint64_t>(id) - table_.base;
-            if (table_.may_hold<Layout>(x)) __builtin_prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
+            if (table_.may_hold<Layout>(x)) detail::prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
         });
     }
 

@@ -5,6 +5,7 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/instruction_set.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/fill_absent.hpp>
@@ -95,7 +96,7 @@ public:
     /// Loads the directory, which is small, to know which entry to fetch.
     void prefetch(Id id) const noexcept {
         if (const std::uint64_t place = place_of(id); place < directory_.size())
-            __builtin_prefetch(pool_.data() + entry_of(directory_[static_cast<std::size_t>(place)], id));
+            detail::prefetch(pool_.data() + entry_of(directory_[static_cast<std::size_t>(place)], id));
     }
 
     /// @throws limit_error if directory and pages need more than the memory limit. Strong guarantee.
@@ -185,7 +186,7 @@ private:
     static constexpr std::size_t page_size = std::size_t{1} << Options.page_bits;
     static constexpr std::uint64_t all_pages =
         static_cast<std::uint64_t>((std::numeric_limits<Id>::max)()) / page_size + 1;
-    static constexpr std::size_t least_shrunk = 1024;  // places: less is not worth giving back
+    static constexpr std::size_t least_shrunk = 1024;           // places: less is not worth giving back
     static constexpr std::uint32_t marked = ~std::uint32_t{0};  // has ids, but no memory yet
 
     [[nodiscard]] static unsigned_type page_number(Id id) noexcept {

@@ -59,7 +59,6 @@ struct example {
 std::vector<example> one_for_each_table() {
     return {{adaptive_choice::dense, consecutive(5000, 100)},
             {adaptive_choice::flat, scattered(5000, 1'000'003)},
-            {adaptive_choice::bitmap, scattered(300'000, 10)},
             {adaptive_choice::paged, blocks(50'000)}};
 }
 
@@ -93,7 +92,7 @@ TEST_CASE("each pattern of ids gets its table, whichever came before", "[id][ada
 TEST_CASE("the choice names its table and its reason", "[id][adaptive_storage]") {
     adaptive_storage<> storage;
     CHECK(says(storage.explain(), "no ids yet"));
-    const char* const names[] = {"flat_storage", "dense_storage", "bitmap_storage", "paged_storage"};
+    const char* const names[] = {"flat_storage", "dense_storage", "paged_storage"};
     for (const auto& [choice, ids] : one_for_each_table()) {
         build(storage, ids);
         CHECK(says(storage.explain(), names[static_cast<std::size_t>(choice)]));

@@ -29,7 +29,7 @@
 #include <cstring>      // std::memcpy, std::memset
 #include <memory>       // std::allocator_traits
 #include <span>         // std::span
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::true_type
 #include <vector>       // std::vector
 
 namespace tsubu::detail {
@@ -145,24 +145,29 @@ std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const
     std::uint32_t queued[3];
     std::size_t repeated = 0;
     for (std::size_t step = 0; step < blocks + 2; ++step) {
-        if (step < blocks) {
-            auto& block = ring[step % 3];
-            Kernels::template locate<Layout>(table, ids.data() + (blocks - 1 - step) * block_size, block);
-            if (prefetch) prefetch_places<Layout, 1>(table, block);
-        }
+        if (step < blocks)
+            Kernels::template locate<Layout>(table, ids.data() + (blocks - 1 - step) * block_size, ring[step % 3]);
         if (step >= 1 && step - 1 < blocks) {
             const auto& block = ring[(step - 1) % 3];
             auto& waiting = queue[(step - 1) % 3];
+            auto& count = queued[(step - 1) % 3];
             const auto first = (blocks - step) * block_size;
             if (!links.empty()) std::fill_n(links.data() + first, block_size, absent);
-            std::uint32_t count = 0;
-            for (std::uint32_t k = block_size; k-- > 0;) {
-                const auto index_plus_1 = static_cast<std::uint32_t>(first + k + 1);
-                const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], index_plus_1);
-                waiting[count] = k;
-                count += static_cast<std::uint32_t>(taken);
-            }
-            queued[(step - 1) % 3] = count;
+            const auto store = [&](auto ask_ahead) {
+                std::uint32_t met = 0;
+                for (std::uint32_t k = block_size; k-- > 0;) {
+                    if constexpr (ask_ahead) prefetch_place<Layout, true>(table, ring[step % 3].place[k]);
+                    const auto index_plus_1 = static_cast<std::uint32_t>(first + k + 1);
+                    const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], index_plus_1);
+                    waiting[met] = k;
+                    met += static_cast<std::uint32_t>(taken);
+                }
+                count = met;
+            };
+            if (prefetch && step < blocks)
+                store(std::true_type{});
+            else
+                store(std::false_type{});
         }
         if (step >= 2) {
             const auto& block = ring[(step - 2) % 3];

@@ -32,9 +32,9 @@ namespace tsubu {
 ///
 /// Concept:       id_storage, batched_lookup (AVX2, AVX-512), prefetchable, parallel_rebuild.
 /// Cost:          find one cache line, and no branch that depends on where in it the id is, or whether; rebuild O(N)
-///                for every pattern of ids, by direct insertion or, from 2e6 ids on and with several threads, dealt
-///                out into parts of the table; assign O(1) amortised; erase O(1).
-/// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines); while a dealt rebuild runs 8 | 16 | 16 more.
+///                for every pattern of ids, with each of several threads hashing all and inserting its share; assign
+///                O(1) amortised; erase O(1).
+/// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines).
 /// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot
 ///                of an erased id is taken by the same id again, or freed at the next rebuild or growth.
 /// Deterministic: yes, on any number of threads and with any instruction set.
@@ -198,8 +198,7 @@ private:
     using spills = detail::spill_list<Allocator>;
     using find_function = index_t (*)(const detail::line_table&, const spills&, std::uint64_t) noexcept;
 
-    static constexpr std::size_t dealing_threshold = 2'000'000;  // below, direct insertion is as fast on one thread
-    static constexpr std::size_t threading_threshold = 1 << 14;  // below, starting threads takes longer than inserting
+    static constexpr std::size_t threading_threshold = 1 << 18;  // below, one thread stays in the caches, and is as fast
 
     template <class Call>
     [[gnu::always_inline]] static decltype(auto) with_lines(flat_lines lines, Call&& call) {
@@ -270,22 +269,19 @@ private:
         };
         std::uint64_t repeated = detail::no_fit;
         with_lines(plan.lines, [&]<class Layout>(Layout) {
-            if (threaded || ids.size() >= dealing_threshold) {
-                detail::dealing<Layout, Allocator> parts(ids.size(), plan.table.lines, threaded ? on.concurrency() : 1,
-                                                         memory_.get_allocator());
+            const auto fill = [&](auto&& lines) {
                 adopt();
-                detail::with_kernels([&]<class Kernels>(Kernels) {
-                    const auto fill = [&](const auto& team) {
-                        return parts.template fill<Kernels>(table_, table_.overflow + detail::overflow_words(table_),
-                                                            stash_, ids, links, team);
-                    };
-                    repeated = threaded ? fill(on) : fill(this_thread{});
+                detail::with_kernels([&]<class Kernels>(Kernels kernels) { repeated = lines(kernels); });
+            };
+            if (threaded) {
+                detail::team_filler<Layout, Allocator> team(on.concurrency(), memory_.get_allocator());
+                fill([&]<class Kernels>(Kernels) {
+                    return team.template fill<Kernels>(table_, stash_, ids, links, exceeds_cache(), on);
                 });
             } else {
-                adopt();
-                detail::wipe(table_, lines_);
-                detail::with_kernels([&]<class Kernels>(Kernels) {
-                    repeated = detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache());
+                fill([&]<class Kernels>(Kernels) {
+                    detail::wipe(table_, lines_);
+                    return detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache());
                 });
             }
         });
@@ -308,7 +304,7 @@ private:
                                            {at.tag, static_cast<std::uint32_t>(at.place), index_plus_1}))
                 return false;
             if (former == absent) ++size_;
-            if (filler.repeated() == 0) ++used_;
+            if (filler.repeated == 0) ++used_;
             return true;
         });
     }

@@ -128,7 +128,7 @@ struct avx2_kernels {
         return kept;
     }
 
-    template <class Layout>
+    template <class Layout, bool LinksAreAbsent>
     [[gnu::target("avx2,bmi,bmi2")]] static std::uint32_t insert(const line_table& table, const id_block<Layout>& block,
                                                                  std::uint32_t index_plus_1, index_t* links,
                                                                  std::uint32_t* queue, std::uint32_t queued,
@@ -145,8 +145,8 @@ struct avx2_kernels {
             if ((same | vacant) == 0) [[unlikely]]
                 queue[kept++] = k;
             else
-                met += put_in_home_line<Layout, 1>(table, links, block.place[k], block.tag[k], index_plus_1 + k, same,
-                                                   vacant);
+                met += put_in_home_line<Layout, 1, LinksAreAbsent>(table, links, block.place[k], block.tag[k],
+                                                                   index_plus_1 + k, same, vacant);
         }
         repeated += met;
         return kept;

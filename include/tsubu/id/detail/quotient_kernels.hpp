@@ -80,7 +80,7 @@ struct portable_kernels {
     }
     /// Inserts the queued ids into their home lines: id k with index_plus_1 + k. Where that line is full, k stays
     /// queued. repeated grows by how many were in the table already.
-    template <class Layout>
+    template <class Layout, bool LinksAreAbsent>
     static std::uint32_t insert(const line_table& table, const id_block<Layout>& block, std::uint32_t index_plus_1,
                                 index_t* links, std::uint32_t* queue, std::uint32_t queued,
                                 std::size_t& repeated) noexcept {
@@ -96,8 +96,9 @@ struct portable_kernels {
             if ((same | vacant) == 0) [[unlikely]]
                 queue[kept++] = k;
             else
-                met += put_in_home_line<Layout, 16 / Layout::slots>(table, links, block.place[k], block.tag[k],
-                                                                    index_plus_1 + k, same, vacant);
+                met += put_in_home_line<Layout, 16 / Layout::slots, LinksAreAbsent>(table, links, block.place[k],
+                                                                                    block.tag[k], index_plus_1 + k,
+                                                                                    same, vacant);
         }
         repeated += met;
         return kept;

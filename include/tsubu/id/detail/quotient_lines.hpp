@@ -33,6 +33,7 @@
 #include <bit>      // std::countr_zero
 #include <cstddef>  // std::byte
 #include <cstdint>  // std::uint32_t
+#include <cstring>  // std::memset
 #include <span>     // std::span
 
 #if defined(__SSE2__)
@@ -268,8 +269,9 @@ template <class Layout>
 }
 
 /// Stores an id in its home line, which has a match for it or a vacant slot: at the match, else in the first vacant
-/// slot from the preferred one on. Which of them it is decides no branch. @return 1 if there was a match, else 0.
-template <class Layout, std::uint32_t BitsPerSlot>
+/// slot from the preferred one on. Which of them it is decides no branch. Its link is written, or, if they are all
+/// absent already, only where it is not. @return 1 if there was a match, else 0.
+template <class Layout, std::uint32_t BitsPerSlot, bool LinksAreAbsent = false>
 [[gnu::always_inline]] inline std::uint32_t put_in_home_line(const line_table& table, index_t* links,
                                                              std::uint64_t place, typename Layout::slot_type tag,
                                                              std::uint32_t index_plus_1, std::uint32_t same,
@@ -281,9 +283,22 @@ template <class Layout, std::uint32_t BitsPerSlot>
     const auto is_repeated = static_cast<std::uint32_t>(same != 0);
     const auto slot = same != 0 ? first_match<Layout, BitsPerSlot>(same) : free_slot;
     const auto at = (place & ~std::uint64_t{Layout::slots - 1}) + slot % Layout::slots;
-    if (links != nullptr) links[index_plus_1 - 1] = static_cast<index_t>(index_at<Layout>(table, at)) - 1;
+    if (links != nullptr && (!LinksAreAbsent || is_repeated != 0))
+        links[index_plus_1 - 1] = static_cast<index_t>(index_at<Layout>(table, at)) - 1;
     write_slot<Layout>(table, at, tag, index_plus_1);  // a free slot had index + 1 = 0: its link is absent
     return is_repeated;
+}
+
+/// Clears lines [first, end), with their overflow bits and indices; the last part clears the lines after them too.
+/// first is a multiple of 64, so that no two parts share a word of overflow bits.
+template <class Layout>
+void wipe_lines(const line_table& table, std::uint64_t first, std::uint64_t end) noexcept {
+    if (first >= end) return;
+    if (end == table.lines) end += extra_lines;
+    std::memset(table.memory + first * 64, 0, (end - first) * 64);
+    std::memset(table.overflow + first / 64, 0, ((end + 63) / 64 - first / 64) * sizeof(std::uint64_t));
+    if constexpr (Layout::keyed)
+        std::memset(table.indices + first * Layout::slots, 0, (end - first) * Layout::slots * sizeof(std::uint32_t));
 }
 
 }  // namespace tsubu::detail

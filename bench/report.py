@@ -4,6 +4,7 @@
 
     report.py RESULT.json [MORE.json.gz ...] -o bench/out/report.html
     report.py --markdown RESULT.json
+    report.py --picture FILE.svg RESULT.json
 
 Times are medians over the repetitions; the spread is the lowest and the highest. Every ratio is one of two medians of
 the same group, so of two series whose repetitions ran interleaved.
@@ -357,10 +358,11 @@ def claims_on_default(results):
 def claims_on_patterns(results):
     claims = []
     for operation in ("find_hit", "rebuild"):
-        claim = Claim(f"{OPERATIONS[operation][0]}: hard patterns / uniform, default", 2.0, at_least=False)
+        claim = Claim(f"{OPERATIONS[operation][0]}: hard patterns / uniform, T/N 1024, default", 2.0, at_least=False)
         for pattern, count, ratio in results.points(operation):
             if HARD_PATTERNS.match(pattern) and ratio == 8:
-                uniform = [results.median("uniform", count, 8, s, operation) for s in (DEFAULT, DEFAULT_PORTABLE)]
+                # Not at T/N 8: there the default is an array of the range, which no scattered ids can have.
+                uniform = [results.median("uniform", count, 1024, s, operation) for s in (DEFAULT, DEFAULT_PORTABLE)]
                 here = [results.median(pattern, count, 8, s, operation) for s in (DEFAULT, DEFAULT_PORTABLE)]
                 claim.add(quotient(here[0], uniform[0]), place_name((pattern, count, 8)), quotient(here[1], uniform[1]))
         claims.append(claim)
@@ -565,6 +567,30 @@ def sweep_chart(results, count, operation, title, unit, pyplot):
     return svg_of(figure, pyplot, f"{title}, {power(count)} particles")
 
 
+def readme_picture(results, path, pyplot):
+    """Batched look-up and rebuild over T/N side by side, on white: for pages that show pictures as they are."""
+    count = max((n for n in results.counts() if n <= 10**6), default=None)
+    if count is None:
+        raise Refusal("no uniform ids of at most 1e6 particles in these results: nothing to draw")
+    ratios = results.ratios(count)
+    figure, pair = pyplot.subplots(1, 2, figsize=(11, 4.2), facecolor="white")
+    for axes, operation in zip(pair, ("find_hit", "rebuild")):
+        for series in drawn_series(results, count, operation):
+            points = [(r, v) for r in ratios if (v := sweep_value(results, count, r, series, operation))]
+            axes.plot(*zip(*points), **style_of(series), zorder=4 if series.startswith(DEFAULT) else 3)
+        axes.set(xscale="log", yscale="log", xlabel="T/N: range of the ids per id", ylabel=OPERATIONS[operation][1])
+        axes.set_xticks(ratios, [power(r) for r in ratios])
+        axes.minorticks_off()
+        plain_ticks(axes.yaxis)
+        axes.grid(True, color="#d5d9dd")
+        for spine in axes.spines.values():
+            spine.set_color("#8a9199")
+        axes.set_title(f"{OPERATIONS[operation][0]}, {power(count)} particles", loc="left")
+    pair[1].legend(loc="center left", bbox_to_anchor=(1.01, .5), frameon=False, fontsize=8, handlelength=3)
+    figure.subplots_adjust(wspace=.2)
+    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
+
+
 def plain_ticks(axis):
     """1, 2, 5, 10, ... as figures, as many as there is room for."""
     from matplotlib.ticker import FuncFormatter, LogLocator
@@ -604,10 +630,10 @@ def pattern_chart(results, count, patterns, pyplot):
             handles.setdefault(series, axes.plot(*zip(*points), **style)[0])
         axes.set(xscale="log", xlabel=OPERATIONS[operation][1])
         axes.set_title(OPERATIONS[operation][0], loc="left")
-        base = results.median("uniform", count, 8, DEFAULT, operation)
+        base = results.median("uniform", count, 1024, DEFAULT, operation)
         if base:
             axes.axvline(2 * base, color=INK, linewidth=.8, linestyle=(0, (2, 3)))
-            axes.annotate("2 × uniform, default", (2 * base, 1.0), xycoords=("data", "axes fraction"), fontsize=7.5,
+            axes.annotate("2 × uniform, T/N 1024, default", (2 * base, 1.0), xycoords=("data", "axes fraction"), fontsize=7.5,
                           va="bottom", ha="center", annotation_clip=False)
             axes.set_title(OPERATIONS[operation][0], loc="left", pad=16)
         mark_degenerate(axes, results, count, patterns)
@@ -852,6 +878,7 @@ def main():
     parser.add_argument("results", nargs="+", metavar="RESULT.json", help="of bench_id_map; .json.gz is read as well")
     parser.add_argument("-o", "--out", default="bench/out/report.html", help="the page (default: %(default)s)")
     parser.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")
+    parser.add_argument("--picture", metavar="FILE.svg", help="draw the chart for the README instead of a page")
     arguments = parser.parse_args()
     results = Results()
     try:
@@ -859,6 +886,9 @@ def main():
             results.read(path)
         if arguments.markdown:
             sys.stdout.write(markdown(results))
+            return 0
+        if arguments.picture:
+            readme_picture(results, arguments.picture, plotting())
             return 0
         text = page(results)
     except (Refusal, OSError) as fault:

@@ -31,8 +31,8 @@ enum class adaptive_choice { flat, dense, paged };
 struct id_distribution {
     std::size_t count = 0;     ///< number of ids, N
     std::uint64_t extent = 0;  ///< highest - lowest
-    /// Share of the 1024 values around an id that are taken: 1 in blocks, N / T at random; 0 where it does not matter,
-    /// since a dense table is chosen without it. [1]
+    /// Share of the 1024 values around an id that are taken: 1 in blocks, N / T at random; 0 where no value of it would
+    /// change the choice. [1]
     double occupancy = 0;
 };
 
@@ -56,7 +56,7 @@ namespace detail {
 template <particle_id Id>
 [[nodiscard]] double sampled_occupancy(std::span<const Id> ids) noexcept {
     constexpr std::size_t probes = 8;
-    constexpr std::size_t least_sample = 1024;
+    constexpr std::size_t least_sample = 512;
     constexpr unsigned page_bits = 10;
     // Odd, so that it does not fall into step with lattices and blocks whose sides are powers of two.
     const std::size_t stride = (std::min)(ids.size() / least_sample, std::size_t{16}) | 1;
@@ -120,7 +120,7 @@ public:
         if (ids.empty()) return clear();
         id_distribution seen{ids.size(), range.extent(), 0};
         auto wanted = choose_table(seen);
-        if (wanted != adaptive_choice::dense) {
+        if (choose_table({seen.count, seen.extent, 1}) == adaptive_choice::paged) {  // if they come in blocks: do they?
             seen.occupancy = detail::sampled_occupancy(ids);
             wanted = choose_table(seen);
         }

@@ -121,7 +121,7 @@ public:
                                        base_of_keys);
         for (std::uint32_t attempt = 0;; ++attempt) {
             if (attempt > 0) detail::next_attempt(plan, ++multiplier_, attempt);
-            if (try_rebuild(plan, ids, links, on)) return;
+            if (try_rebuild(plan, attempt < detail::attempts_per_size, ids, links, on)) return;
         }
     }
 
@@ -198,7 +198,8 @@ private:
     using spills = detail::spill_list<Allocator>;
     using find_function = index_t (*)(const detail::line_table&, const spills&, std::uint64_t) noexcept;
 
-    static constexpr std::size_t threading_threshold = 1 << 18;  // below, one thread stays in the caches, and is as fast
+    static constexpr std::size_t threading_threshold = 1
+                                                       << 18;  // below, one thread stays in the caches, and is as fast
 
     template <class Call>
     [[gnu::always_inline]] static decltype(auto) with_lines(flat_lines lines, Call&& call) {
@@ -239,10 +240,12 @@ private:
         std::swap(limit_, other.limit_);
     }
 
-    /// @return false if the ids do not fit under this multiplier; the map holds nothing then.
+    /// @return false if the ids do not fit under this multiplier, or (strict) more than one in 16 meets a full home line,
+    ///         as one in 40 does at random; the map holds nothing then.
     template <executor Executor>
-    bool try_rebuild(const detail::line_plan& plan, std::span<const Id> ids, std::span<index_t> links,
+    bool try_rebuild(const detail::line_plan& plan, bool strict, std::span<const Id> ids, std::span<index_t> links,
                      const Executor& on) {
+        const auto most_spilled = strict ? ids.size() / 16 + 64 : ids.size();
         const auto needed = detail::memory_lines(plan.table, plan.lines);
         // Memory is kept while it is not far too large: 4 times is what a hole in the particle count may leave.
         const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || ids.size() <= reserved_);
@@ -276,12 +279,13 @@ private:
             if (threaded) {
                 detail::team_filler<Layout, Allocator> team(on.concurrency(), memory_.get_allocator());
                 fill([&]<class Kernels>(Kernels) {
-                    return team.template fill<Kernels>(table_, stash_, ids, links, exceeds_cache(), on);
+                    return team.template fill<Kernels>(table_, stash_, ids, links, exceeds_cache(), most_spilled, on);
                 });
             } else {
                 fill([&]<class Kernels>(Kernels) {
                     detail::wipe(table_, lines_);
-                    return detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache());
+                    return detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache(),
+                                                               most_spilled);
                 });
             }
         });

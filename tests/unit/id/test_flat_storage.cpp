@@ -222,6 +222,22 @@ TEST_CASE("ids made to collide under some multipliers take another", "[id][flat_
     }
 }
 
+TEST_CASE("a stride that one multiplier crowds into few lines takes another, on any number of threads",
+          "[id][flat_storage][T4]") {
+    ids_t ids(threaded_count);
+    for (std::size_t k = 0; k < ids.size(); ++k) ids[k] = static_cast<std::int64_t>(k << 13);
+    flat_storage<> one;
+    flat_storage<> several;
+    build(one, ids);
+    build(several, ids, tsubu::threads(2));
+    CHECK(one.discarded_multipliers() > 0);
+    CHECK(several.discarded_multipliers() == one.discarded_multipliers());
+    bool right = true;
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        right = right && one.find(ids[k]) == static_cast<index_t>(k) && several.find(ids[k]) == one.find(ids[k]);
+    CHECK(right);
+}
+
 TEST_CASE("ids that spill over several lines and into the stash are found, replaced and erased",
           "[id][flat_storage][A1][A13]") {
     for (const unsigned bits : {24U, 40U}) {

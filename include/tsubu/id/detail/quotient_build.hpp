@@ -73,6 +73,7 @@ public:
     }
     /// The same once the home line is known to be full.
     [[gnu::noinline]] bool insert_beyond(std::uint64_t place, Slot tag, std::uint32_t index_plus_1) noexcept {
+        ++spilled;
         const auto home = place / Layout::slots;
         const auto end = walk<Layout>(table_, place, tag, end_line_);
         table_.overflow[home / 64] |= std::uint64_t{1} << (home % 64);
@@ -89,6 +90,7 @@ public:
     }
 
     std::size_t repeated = 0;  // ids that were in the table already
+    std::size_t spilled = 0;   // ids that met a full home line
 
 private:
     const line_table& table_;
@@ -199,17 +201,18 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
     return true;
 }
 
-/// One thread. @return how many ids occurred before; no_fit if the stash is full.
+/// One thread. @return how many ids occurred before; no_fit if the stash is full, or more ids than most_spilled met a
+/// full home line: then this multiplier maps them badly.
 template <class Kernels, class Layout, class Id, class Spills>
 std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
-                         bool prefetch) noexcept {
+                         bool prefetch, std::size_t most_spilled) noexcept {
     line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
     const bool fits = insert_all<Kernels, Layout, false>(
         table, filler, ids, links.data(), 0, 0, prefetch,
         [&](std::uint64_t place, auto tag, std::uint32_t index_plus_1) {
             return insert_into_stash(filler, stash, {tag, static_cast<std::uint32_t>(place), index_plus_1});
         });
-    return fits ? filler.repeated : no_fit;
+    return fits && filler.spilled <= most_spilled ? filler.repeated : no_fit;
 }
 
 /// Several threads: each hashes all ids, and inserts those of its own part of the lines. What the last lines of a part
@@ -218,7 +221,7 @@ template <class Layout, class Allocator>
 class team_filler {
 public:
     /// Takes the memory that filling needs, before the table is touched.
-    team_filler(std::size_t team, const Allocator& allocator) : repeated_(team, allocator) {
+    team_filler(std::size_t team, const Allocator& allocator) : repeated_(team, allocator), spilled_(team, allocator) {
         for (std::size_t t = 0; t < team; ++t) {
             late_.emplace_back(allocator);
             late_.back().reserve(spill_lines * Layout::slots);
@@ -228,7 +231,7 @@ public:
     /// Clears the lines as well. @return as fill_lines.
     template <class Kernels, class Id, class Spills, executor Executor>
     std::uint64_t fill(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
-                       bool prefetch, const Executor& on) noexcept {
+                       bool prefetch, std::size_t most_spilled, const Executor& on) noexcept {
         const std::size_t team = late_.size();
         const auto share = [&](std::size_t total, std::size_t t, std::size_t grain) {
             return (std::min)(total, ((total / team) / grain + 1) * grain * t);
@@ -242,7 +245,7 @@ public:
             const auto first = share(table.lines, t, 64);
             const auto end = share(table.lines, t + 1, 64);
             late_[t].clear();
-            repeated_[t] = 0;
+            repeated_[t] = spilled_[t] = 0;
             if (first == end) return;  // more threads than lines
             line_filler<Layout> filler(table, end < table.lines ? end : table.lines + spill_lines, links.data());
             insert_all<Kernels, Layout, true>(
@@ -252,23 +255,27 @@ public:
                     return late_[t].push({tag, static_cast<std::uint32_t>(place), index_plus_1});
                 });
             repeated_[t] = filler.repeated;
+            spilled_[t] = filler.spilled;
         });
         line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
+        std::size_t spilled = 0;
         bool fits = true;
         for (std::size_t t = 0; t < team; ++t) {
             filler.repeated += repeated_[t];
+            spilled += spilled_[t];
             fits = fits && late_[t].entries().size() < late_[t].capacity();
             for (const auto& entry : late_[t].entries())
                 fits = fits && (filler.insert(entry.place, static_cast<typename Layout::slot_type>(entry.tag),
                                               entry.index_plus_1) ||
                                 insert_into_stash(filler, stash, entry));
         }
-        return fits ? filler.repeated : no_fit;
+        return fits && spilled <= most_spilled ? filler.repeated : no_fit;
     }
 
 private:
     std::vector<spill_list<Allocator>> late_;    // per part
     buffer<std::uint64_t, Allocator> repeated_;  // per part
+    buffer<std::uint64_t, Allocator> spilled_;   // per part
 };
 
 }  // namespace tsubu::detail

@@ -22,7 +22,8 @@
 /// Keyed lines hold ids of more bits than fit: the slot is h in full (8 bytes), the index + 1 stands in an array
 /// beside it; base is a value that no id has, so h is never 0.
 ///
-/// A pattern of ids that one multiplier maps badly shows itself by a full stash: the next multiplier is taken.
+/// A pattern of ids that one multiplier maps badly shows itself by many full lines, or by a full stash: the next
+/// multiplier is taken, and remembered.
 ///
 /// Source: quotienting as in Cleary 1984, "Compact hash tables using bidirectional linear probing",
 /// doi:10.1109/TC.1984.1676499; multiply-shift hashing as in Dietzfelbinger et al. 1997, doi:10.1006/jagm.1997.0873.

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the results of bench_id_map: one page without references to anything outside itself, or tables for the README.
+"""Draws the results of bench_id_map: one page without references to anything outside itself, or the tables and the
+picture of the README.
 
     report.py RESULT.json [MORE.json.gz ...] -o bench/out/report.html
     report.py --markdown RESULT.json
@@ -361,7 +362,7 @@ def claims_on_patterns(results):
         claim = Claim(f"{OPERATIONS[operation][0]}: hard patterns / uniform, T/N 1024, default", 2.0, at_least=False)
         for pattern, count, ratio in results.points(operation):
             if HARD_PATTERNS.match(pattern) and ratio == 8:
-                # Not at T/N 8: there the default is an array of the range, which no scattered ids can have.
+                # Not at T/N 8: there the default is an array of the range, if that takes less than 8 MiB.
                 uniform = [results.median("uniform", count, 1024, s, operation) for s in (DEFAULT, DEFAULT_PORTABLE)]
                 here = [results.median(pattern, count, 8, s, operation) for s in (DEFAULT, DEFAULT_PORTABLE)]
                 claim.add(quotient(here[0], uniform[0]), place_name((pattern, count, 8)), quotient(here[1], uniform[1]))
@@ -633,8 +634,8 @@ def pattern_chart(results, count, patterns, pyplot):
         base = results.median("uniform", count, 1024, DEFAULT, operation)
         if base:
             axes.axvline(2 * base, color=INK, linewidth=.8, linestyle=(0, (2, 3)))
-            axes.annotate("2 × uniform, T/N 1024, default", (2 * base, 1.0), xycoords=("data", "axes fraction"), fontsize=7.5,
-                          va="bottom", ha="center", annotation_clip=False)
+            axes.annotate("2 × uniform, T/N 1024, default", (2 * base, 1.0), fontsize=7.5,
+                          xycoords=("data", "axes fraction"), va="bottom", ha="center", annotation_clip=False)
             axes.set_title(OPERATIONS[operation][0], loc="left", pad=16)
         mark_degenerate(axes, results, count, patterns)
         plain_ticks(axes.xaxis)
@@ -877,8 +878,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", nargs="+", metavar="RESULT.json", help="of bench_id_map; .json.gz is read as well")
     parser.add_argument("-o", "--out", default="bench/out/report.html", help="the page (default: %(default)s)")
-    parser.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")
-    parser.add_argument("--picture", metavar="FILE.svg", help="draw the chart for the README instead of a page")
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")
+    instead.add_argument("--picture", metavar="FILE.svg", help="draw the chart of the README instead of a page")
     arguments = parser.parse_args()
     results = Results()
     try:

@@ -75,7 +75,7 @@ inline std::atomic<int> instruction_set_in_use{instruction_set_unknown};
 }
 
 /// Makes the kernels use `wanted` from now on, or the best that the machine supports if that is less. Answers do not
-/// depend on it: for tests and measurements.
+/// depend on it: for tests and measurements. find() of one id in a flat_storage follows at its next rebuild or growth.
 /// @return the set that is in use now.
 inline instruction_set use_instruction_set(instruction_set wanted) noexcept {
     const auto supported = supported_instruction_set();

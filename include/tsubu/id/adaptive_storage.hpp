@@ -52,14 +52,14 @@ struct id_distribution {
 
 namespace detail {
 
-/// Do the ids come in blocks? Of eight ids, how full are the 1024 values around each, judged by every 17th id.
+/// Do the ids come in blocks? Of eight ids, how full are the 1024 values around each, judged by every 17th id at most.
 template <particle_id Id>
 [[nodiscard]] double sampled_occupancy(std::span<const Id> ids) noexcept {
     constexpr std::size_t probes = 8;
-    constexpr std::size_t least_sample = 512;
+    constexpr std::size_t wished_sample = 512;
     constexpr unsigned page_bits = 10;
     // Odd, so that it does not fall into step with lattices and blocks whose sides are powers of two.
-    const std::size_t stride = (std::min)(ids.size() / least_sample, std::size_t{16}) | 1;
+    const std::size_t stride = (std::min)(ids.size() / wished_sample, std::size_t{16}) | 1;
     unsigned_id<Id> page[probes];
     std::uint32_t met[probes] = {};
     for (std::size_t p = 0; p < probes; ++p)
@@ -81,7 +81,8 @@ template <particle_id Id>
 ///     std::puts(where.storage().explain().c_str());
 ///
 /// Concept:       id_storage, batched_lookup, prefetchable, parallel_rebuild.
-/// Cost:          that of the chosen table, one predictable branch per call, and .2 ns per id for looking.
+/// Cost:          that of the chosen table and one or two predictable branches per call; a rebuild looks at a sample of
+///                the ids (.2 ns per id) where full blocks of them would go to pages.
 /// Bytes per id:  8 | 16 | 20 in flat lines; 4 T / N where it picks dense, so up to 96 for small tables (8 MiB) and 20
 ///                for larger ones; at most 20 in pages. A memory_limit that does not admit the pick leads to flat
 ///                lines.
@@ -111,7 +112,8 @@ public:
         with_table([&](const auto& table) { table.prefetch(id); });
     }
 
-    /// @throws limit_error if not even flat lines keep within the memory limit. Strong guarantee.
+    /// @throws limit_error if not even flat lines keep within the memory limit. Strong guarantee, but for
+    ///         the corner told at flat_storage.
     void rebuild(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links) {
         rebuild(ids, range, links, this_thread{});
     }
@@ -120,7 +122,8 @@ public:
         if (ids.empty()) return clear();
         id_distribution seen{ids.size(), range.extent(), 0};
         auto wanted = choose_table(seen);
-        if (choose_table({seen.count, seen.extent, 1}) == adaptive_choice::paged) {  // if they come in blocks: do they?
+        // Full blocks would go to pages: are they full?
+        if (choose_table({seen.count, seen.extent, 1}) == adaptive_choice::paged) {
             seen.occupancy = detail::sampled_occupancy(ids);
             wanted = choose_table(seen);
         }
@@ -247,7 +250,7 @@ private:
         sparse.assign(id, index);
         table_ = std::move(sparse);
     }
-    // Not std::visit: find() of the tables is inlined into the caller.
+    // Not std::visit: find() of the tables, or the call that flat_storage makes, is inlined into the caller.
     template <class Self, class Call>
     [[gnu::always_inline]] static decltype(auto) with_table_of(Self& table, Call&& call) {
         if (auto* const t = std::get_if<flat>(&table)) return call(*t);

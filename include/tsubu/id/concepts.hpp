@@ -3,7 +3,7 @@
 /// What a storage policy of id_map must offer, and the table of those that are shipped.
 ///
 /// policy                      find       rebuild         bytes per id        choose it when
-/// dense_storage               1 load     O(N + T)        4 T/N               ids fill their range: T/N up to 6, or
+/// dense_storage               1 load     O(N + T)        4 T/N               ids fill their range: T/N up to 5, or
 ///                                                                            24 while the table is below 8 MiB
 /// bitmap_storage              2 loads    O(N + T/64)     4 + .19 T/N         memory is tight and T/N <= 16
 /// paged_storage               2 loads    O(N + pages)    4 per page entry    ids come in blocks

@@ -6,7 +6,6 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/executor.hpp>
-#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/detail/quotient_build.hpp>
@@ -31,20 +30,21 @@ namespace tsubu {
 ///     tsubu::id_map<tsubu::flat_storage<>> where;
 ///
 /// Concept:       id_storage, batched_lookup (AVX2, AVX-512), prefetchable, parallel_rebuild.
-/// Cost:          find one cache line, and no branch that depends on where in it the id is, or whether; rebuild O(N)
+/// Cost:          find one cache line (two in keyed lines), and no branch that depends on where in it the id is, or
+///                whether, unless that line is full; rebuild O(N)
 ///                for every pattern of ids, with each of several threads hashing all and inserting its share; assign
 ///                O(1) amortised; erase O(1).
 /// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines).
 /// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot
 ///                of an erased id is taken by the same id again, or freed at the next rebuild or growth.
-/// Deterministic: yes, on any number of threads and with any instruction set.
+/// Deterministic: answers and links are, on any number of threads and with any instruction set.
 /// Choose it when ids are sparse, strided, clustered, or unknown.
 /// Do not when    ids fill their range: dense_storage is two to five times faster there.
 /// Source:        design note in detail/quotient_lines.hpp.
 ///
-/// The strong guarantee has one far corner: a rebuild that fits the memory it has is done in place. Should the hash
-/// multiplier map these ids badly, it is done again with another; if memory is refused then, or if none of 64 fits, the
-/// map is left empty.
+/// The strong guarantee has one far corner: the old table is given up before the ids are known to fit into the new one.
+/// Should the hash multiplier map them badly, the rebuild is done again with another; if memory is refused then, or if
+/// none of 64 fits, the map is left empty.
 template <particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>
 class flat_storage {
 public:
@@ -95,7 +95,9 @@ public:
     void prefetch(Id id) const noexcept {
         with_lines([&]<class Layout>(Layout) {
             const auto x = static_cast<std::uint64_t>(id) - table_.base;
-            if (table_.may_hold<Layout>(x)) detail::prefetch(table_.slots<Layout>() + table_.locate<Layout>(x).place);
+            if (table_.may_hold<Layout>(x))
+                detail::prefetch_place<Layout, false>(table_,
+                                                      static_cast<std::uint32_t>(table_.locate<Layout>(x).place));
         });
     }
 
@@ -240,12 +242,13 @@ private:
         std::swap(limit_, other.limit_);
     }
 
-    /// @return false if the ids do not fit under this multiplier, or (strict) more than one in 16 meets a full home line,
-    ///         as one in 40 does at random; the map holds nothing then.
+    /// @return false if the ids do not fit under this multiplier, or (strict) if more than one in 16 meets a full home
+    ///         line, as one in 40 does at random; the map holds nothing then.
     template <executor Executor>
     bool try_rebuild(const detail::line_plan& plan, bool strict, std::span<const Id> ids, std::span<index_t> links,
                      const Executor& on) {
-        const auto most_spilled = strict ? ids.size() / 16 + 64 : ids.size();
+        if (links.empty()) links = {};  // from here on no links means no address either
+        const auto most_spilled = strict ? ids.size() / 16 + 64 : ids.size();  // 64: a handful of ids scatters more
         const auto needed = detail::memory_lines(plan.table, plan.lines);
         // Memory is kept while it is not far too large: 4 times is what a hole in the particle count may leave.
         const bool keep = needed <= memory_.size() && (memory_.size() / 4 <= needed || ids.size() <= reserved_);
@@ -258,7 +261,7 @@ private:
         spills fresh_stash(memory_.get_allocator());
         const bool keep_stash = stash_.capacity() >= plan.stash_capacity;
         if (!keep_stash) fresh_stash.reserve(plan.stash_capacity);
-        const bool threaded = on.concurrency() > 1 && ids.size() >= threading_threshold;
+        const bool threaded = on.concurrency() > 1 && ids.size() >= detail::threading_threshold;
         const auto adopt = [&]() noexcept {  // from here on nothing throws
             if (!keep) memory_.swap(fresh);
             if (!keep_stash) std::swap(stash_, fresh_stash);
@@ -272,12 +275,13 @@ private:
         };
         std::uint64_t repeated = detail::no_fit;
         with_lines(plan.lines, [&]<class Layout>(Layout) {
-            const auto fill = [&](auto&& lines) {
+            const auto fill = [&](auto&& fill_with) {
                 adopt();
-                detail::with_kernels([&]<class Kernels>(Kernels kernels) { repeated = lines(kernels); });
+                detail::with_kernels([&]<class Kernels>(Kernels kernels) { repeated = fill_with(kernels); });
             };
             if (threaded) {
-                detail::team_filler<Layout, Allocator> team(on.concurrency(), memory_.get_allocator());
+                detail::team_filler<Layout, Allocator> team(on.concurrency(), plan.stash_capacity,
+                                                           memory_.get_allocator());
                 fill([&]<class Kernels>(Kernels) {
                     return team.template fill<Kernels>(table_, stash_, ids, links, exceeds_cache(), most_spilled, on);
                 });

@@ -208,18 +208,18 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
                                    std::to_string(same.size()) + " links, but " + std::to_string(before.size()) +
                                        " ids before",
                                    "pass the ids that the links were last built from");
-    const auto common = (std::min)(before.size(), after.size());
-    const auto longer = before.size() + after.size() - common;
+    const auto in_both = (std::min)(before.size(), after.size());
+    const auto longer = before.size() + after.size() - in_both;
     std::vector<index_t> changed;
     const auto limit = longer / 16;  // from about 6 % on a rebuild is never slower
-    if (longer - common > limit) return rebuild(after, same);
+    if (longer - in_both > limit) return rebuild(after, same);
     changed.reserve(limit + 1);
-    for (std::size_t i = 0; i < common; ++i) {
+    for (std::size_t i = 0; i < in_both; ++i) {
         if (before[i] == after[i]) continue;
         changed.push_back(static_cast<index_t>(i));
         if (changed.size() > limit) return rebuild(after, same);
     }
-    for (std::size_t i = common; i < longer; ++i) changed.push_back(static_cast<index_t>(i));
+    for (std::size_t i = in_both; i < longer; ++i) changed.push_back(static_cast<index_t>(i));
     for (const auto i : changed)
         if (static_cast<std::size_t>(i) < after.size() && detail::is_negative(after[static_cast<std::size_t>(i)]))
             refuse_negative("id_map::update", after);

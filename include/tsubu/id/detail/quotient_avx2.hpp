@@ -69,9 +69,8 @@ struct avx2_kernels {
     }
 
     template <class Layout>
-    [[gnu::target("avx2,bmi2,popcnt")]] static std::uint32_t settle(const line_table& table,
-                                                                    const id_block<Layout>& block, index_t* out,
-                                                                    std::uint32_t* queue) noexcept {
+    [[gnu::target("avx2,bmi2")]] static std::uint32_t settle(const line_table& table, const id_block<Layout>& block,
+                                                             index_t* out, std::uint32_t* queue) noexcept {
         const __m256i one = _mm256_set1_epi32(1);
         const __m256i zero = _mm256_setzero_si256();
         const __m256i mask = set1_mask<Layout>(table);
@@ -119,9 +118,7 @@ struct avx2_kernels {
             const auto k = queue[q];
             const auto first = block.place[k] & ~(Layout::slots - 1);
             const auto found = matches_under<Layout>(table.slots<Layout>() + first, mask, block.tag[k]);
-            const auto at = first + first_match<Layout, 1>(found);
-            const auto index = index_at<Layout>(table, at);
-            out[k] = index_if(found != 0, index);
+            out[k] = answer<Layout>(table, first + first_match<Layout, 1>(found), block.tag[k], found);
             queue[kept] = k;
             kept += static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots);
         }
@@ -162,7 +159,8 @@ struct avx2_kernels {
         const auto found = matches_under<Layout>(table.slots<Layout>() + first, set1_mask<Layout>(table), at.tag);
         if ((static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots)) != 0) [[unlikely]]
             return find_beyond<Layout>(table, stash.entries(), at.place, at.tag);
-        return answer<Layout>(table, first + _tzcnt_u32(found), at.tag, found);  // nothing found: 32 slots further
+        return answer<Layout>(table, first + _tzcnt_u32(found), at.tag,
+                              found);  // nothing found: 32 slots further, in lines that are there
     }
 
 private:

@@ -124,7 +124,7 @@ struct avx512_kernels {
             const auto end = search_line<Layout>(table, mask, block.place[k], block.tag[k]);
             out[k] = end.index;
             queue[kept] = k;
-            kept += static_cast<std::uint32_t>(end.passed_on);
+            kept += static_cast<std::uint32_t>(end.may_lie_beyond);
         }
         return kept;
     }
@@ -160,7 +160,7 @@ struct avx512_kernels {
         if (!table.may_hold<Layout>(x)) return absent;
         const auto at = table.locate<Layout>(x);
         const auto end = search_line<Layout>(table, set1_mask<Layout>(table), at.place, at.tag);
-        if (end.passed_on) [[unlikely]]
+        if (end.may_lie_beyond) [[unlikely]]
             return find_beyond<Layout>(table, stash.entries(), at.place, at.tag);
         return end.index;
     }
@@ -187,7 +187,7 @@ private:
     }
     struct line_search {
         index_t index;
-        bool passed_on;  // the line is full, so it may have passed the id on
+        bool may_lie_beyond;  // not in this line, which has no empty slot
     };
     /// Where the tag is in the line of a place, at most once: a slot that matches, without the tag, is the index.
     template <class Layout>
@@ -204,13 +204,13 @@ private:
         } else {
             const __m512i rest = _mm512_xor_si512(line, _mm512_set1_epi64(static_cast<long long>(tag)));
             const __mmask8 match = _mm512_testn_epi64_mask(rest, mask);
-            const bool passed_on = _kortestz_mask8_u8(match, _mm512_testn_epi64_mask(line, line)) != 0;
+            const bool may_lie_beyond = _kortestz_mask8_u8(match, _mm512_testn_epi64_mask(line, line)) != 0;
             if constexpr (Layout::keyed) {
-                const auto found = number_of(match);  // nothing found: 32 slots further
-                return {index_if(found != 0, table.indices[first + _tzcnt_u32(found)]), passed_on};
+                const auto found = number_of(match);  // nothing found: 32 slots further, in lines that are there
+                return {index_if(found != 0, table.indices[first + _tzcnt_u32(found)]), may_lie_beyond};
             } else {
                 const __m512i index = _mm512_maskz_compress_epi64(match, rest);
-                return {_mm_cvtsi128_si32(_mm512_castsi512_si128(index)) - 1, passed_on};
+                return {_mm_cvtsi128_si32(_mm512_castsi512_si128(index)) - 1, may_lie_beyond};
             }
         }
     }

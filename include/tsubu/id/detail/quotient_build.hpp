@@ -10,18 +10,17 @@
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/executor.hpp>
 #include <tsubu/core/prefetch.hpp>
+#include <tsubu/core/types.hpp>
 #include <tsubu/id/detail/quotient_find.hpp>
 #include <tsubu/id/detail/quotient_kernels.hpp>
 #include <tsubu/id/detail/quotient_lines.hpp>
 
 #include <algorithm>    // std::fill_n, std::min
-#include <bit>          // std::countr_zero
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
-#include <cstring>      // std::memcpy, std::memset
 #include <memory>       // std::allocator_traits
 #include <span>         // std::span
-#include <type_traits>  // std::conditional_t, std::true_type
+#include <type_traits>  // std::false_type, std::true_type
 #include <vector>       // std::vector
 
 namespace tsubu::detail {
@@ -112,6 +111,9 @@ bool insert_into_stash(Filler& filler, Spills& stash, const spilled_id& entry) n
 
 inline constexpr std::uint64_t no_fit = ~std::uint64_t{0};
 
+/// Below, the table stays in the caches of one thread, which is then as fast as several.
+inline constexpr std::size_t threading_threshold = std::size_t{1} << 18;
+
 /// So many blocks before they are hashed, ids are asked for.
 inline constexpr std::size_t ids_ahead = 4;
 
@@ -126,7 +128,7 @@ inline constexpr std::size_t ids_ahead = 4;
 /// order.
 template <class Kernels, class Layout, bool Shared, class Id, class LeftOver>
 bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<const Id> ids, index_t* links,
-                std::uint32_t first_place, std::uint32_t places, bool prefetch, LeftOver&& left_over) noexcept {
+                std::uint32_t first_place, std::uint32_t places, bool beyond_cache, LeftOver&& left_over) noexcept {
     const auto is_mine = [=](std::uint64_t place) {
         return !Shared || static_cast<std::uint32_t>(place) - first_place < places;
     };
@@ -144,7 +146,8 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
     std::uint32_t queued[3];
     std::uint32_t mine[3][Shared ? block_size : 1] = {};
     std::uint32_t count[3];
-    // The m-th id of its block that is to be inserted. (Past their count: one of another part, whose line is not used.)
+    // The m-th id of its block that is to be inserted. Past the count some number of an earlier block, whose line is
+    // only asked for; if the next block has more ids of this part, the last of them are not asked for.
     const auto number = [&](std::size_t step, std::uint32_t m) {
         return Shared ? mine[step % 3][m] : block_size - 1 - m;
     };
@@ -176,13 +179,13 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
                     if constexpr (ask_ahead) prefetch_place<Layout, true>(table, next.place[number(step, m)]);
                     const auto k = number(step - 1, m);
                     const auto index_plus_1 = static_cast<std::uint32_t>(first + k + 1);
-                    const bool taken = taken_before<Layout>(table, block.place[k], block.tag[k], index_plus_1);
+                    const bool stored = store_if_free<Layout>(table, block.place[k], block.tag[k], index_plus_1);
                     waiting[met] = k;
-                    met += static_cast<std::uint32_t>(taken);
+                    met += static_cast<std::uint32_t>(!stored);
                 }
                 return met;
             };
-            queued[(step - 1) % 3] = prefetch && step < blocks ? store(std::true_type{}) : store(std::false_type{});
+            queued[(step - 1) % 3] = beyond_cache && step < blocks ? store(std::true_type{}) : store(std::false_type{});
         }
         if (step >= 2) {
             const auto& block = ring[(step - 2) % 3];
@@ -205,10 +208,10 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
 /// full home line: then this multiplier maps them badly.
 template <class Kernels, class Layout, class Id, class Spills>
 std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
-                         bool prefetch, std::size_t most_spilled) noexcept {
+                         bool beyond_cache, std::size_t most_spilled) noexcept {
     line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
     const bool fits = insert_all<Kernels, Layout, false>(
-        table, filler, ids, links.data(), 0, 0, prefetch,
+        table, filler, ids, links.data(), 0, 0, beyond_cache,
         [&](std::uint64_t place, auto tag, std::uint32_t index_plus_1) {
             return insert_into_stash(filler, stash, {tag, static_cast<std::uint32_t>(place), index_plus_1});
         });
@@ -221,17 +224,18 @@ template <class Layout, class Allocator>
 class team_filler {
 public:
     /// Takes the memory that filling needs, before the table is touched.
-    team_filler(std::size_t team, const Allocator& allocator) : repeated_(team, allocator), spilled_(team, allocator) {
+    team_filler(std::size_t team, std::size_t stash_capacity, const Allocator& allocator)
+        : repeated_(team, allocator), spilled_(team, allocator) {
         for (std::size_t t = 0; t < team; ++t) {
             late_.emplace_back(allocator);
-            late_.back().reserve(spill_lines * Layout::slots);
+            late_.back().reserve(spill_lines * Layout::slots + stash_capacity);
         }
     }
 
     /// Clears the lines as well. @return as fill_lines.
     template <class Kernels, class Id, class Spills, executor Executor>
     std::uint64_t fill(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
-                       bool prefetch, std::size_t most_spilled, const Executor& on) noexcept {
+                       bool beyond_cache, std::size_t most_spilled, const Executor& on) noexcept {
         const std::size_t team = late_.size();
         const auto share = [&](std::size_t total, std::size_t t, std::size_t grain) {
             return (std::min)(total, ((total / team) / grain + 1) * grain * t);
@@ -248,9 +252,10 @@ public:
             repeated_[t] = spilled_[t] = 0;
             if (first == end) return;  // more threads than lines
             line_filler<Layout> filler(table, end < table.lines ? end : table.lines + spill_lines, links.data());
+            // A refusal shows below: a list that is full may have refused an id.
             insert_all<Kernels, Layout, true>(
                 table, filler, ids, links.data(), static_cast<std::uint32_t>(first * Layout::slots),
-                static_cast<std::uint32_t>((end - first) * Layout::slots), prefetch,
+                static_cast<std::uint32_t>((end - first) * Layout::slots), beyond_cache,
                 [&](std::uint64_t place, auto tag, std::uint32_t index_plus_1) {
                     return late_[t].push({tag, static_cast<std::uint32_t>(place), index_plus_1});
                 });

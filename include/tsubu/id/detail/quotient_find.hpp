@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Batched look-up in quotient lines: blocks of ids on their way through three steps at once.
+/// Batched look-up in quotient lines, blocks of ids on their way through three steps at once; and the choice of
+/// kernels.
 #pragma once
 
 #include <tsubu/core/instruction_set.hpp>
@@ -11,7 +12,7 @@
 #include <tsubu/id/detail/quotient_lines.hpp>
 
 #include <cstddef>      // std::size_t
-#include <cstdint>      // std::uint64_t
+#include <cstdint>      // std::uint32_t
 #include <span>         // std::span
 #include <type_traits>  // std::true_type
 
@@ -33,7 +34,7 @@ template <class Layout, bool Write>
 /// later, when their stores no longer stall the vector loads.
 template <class Kernels, class Layout, class Id>
 void find_blocks(const line_table& table, std::span<const spilled_id> stash, const Id* ids, std::size_t blocks,
-                 index_t* out, bool prefetch) noexcept {
+                 index_t* out, bool beyond_cache) noexcept {
     using Slot = typename Layout::slot_type;
     id_block<Layout> ring[3];
     alignas(64) std::uint32_t queue[block_size + 16];  // a vector store may write 16 beyond the last
@@ -49,7 +50,7 @@ void find_blocks(const line_table& table, std::span<const spilled_id> stash, con
                     if constexpr (Layout::keyed) block.index[k] = table.indices[block.place[k]];
                 }
             };
-            if (prefetch && step < blocks)
+            if (beyond_cache && step < blocks)
                 load(std::true_type{});
             else
                 load(std::false_type{});

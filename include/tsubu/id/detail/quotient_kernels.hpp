@@ -2,7 +2,8 @@
 /// @file
 /// Where flat_storage spends its time: the loops of the batched calls over a block of 64 ids, locate (hash), settle
 /// (compare the preferred slots), search and insert (compare whole lines), and find for one id. Here for any machine;
-/// quotient_avx2.hpp and quotient_avx512.hpp offer the same functions with wider vectors.
+/// quotient_avx2.hpp and quotient_avx512.hpp offer the same functions with wider vectors. Their loops are written out
+/// again, since a function without the target attribute cannot inline one that has it.
 ///
 /// A block is 64 ids: long enough that the calls cost nothing, short enough that its 1.5 kB of places, tags and slots
 /// stay in the first-level cache together with those of the blocks before and after it.
@@ -27,7 +28,7 @@ struct alignas(64) id_block {
     alignas(64) std::uint32_t index[block_size];  // keyed lines only
 };
 
-/// What every instruction set offers, written for any machine. Each function is one step for a whole block.
+/// What every instruction set offers, written for any machine. Each function but find is one step for a whole block.
 struct portable_kernels {
     /// block.place, block.tag from ids; an id that cannot be in the table gets the line that is always empty.
     template <class Layout, class Id>
@@ -59,7 +60,7 @@ struct portable_kernels {
         }
         return queued;
     }
-    /// out for the queued ids, by comparing the whole home line. Where that line passed ids on, k stays queued.
+    /// out for the queued ids, by comparing the whole home line. Where the id may lie beyond that line, k stays queued.
     template <class Layout>
     static std::uint32_t search(const line_table& table, const id_block<Layout>& block, index_t* out,
                                 std::uint32_t* queue, std::uint32_t queued) noexcept {
@@ -70,9 +71,7 @@ struct portable_kernels {
             const auto k = queue[q];
             const auto first = block.place[k] & ~(Layout::slots - 1);
             const auto found = matches<Layout>(table.slots<Layout>() + first, block.tag[k], mask);
-            const auto at = first + first_match<Layout>(found);
-            const auto index = index_at<Layout>(table, at);
-            out[k] = index_if(found != 0, index);
+            out[k] = answer<Layout>(table, first + first_match<Layout>(found), block.tag[k], found);
             queue[kept] = k;
             kept += static_cast<std::uint32_t>(found == 0) & table.overflow_bit(first / Layout::slots);
         }
@@ -103,6 +102,7 @@ struct portable_kernels {
         repeated += met;
         return kept;
     }
+    /// Index of one id, or absent.
     template <class Layout, class Spills>
     static index_t find(const line_table& table, const Spills& stash, std::uint64_t id) noexcept {
         const auto x = id - table.base;

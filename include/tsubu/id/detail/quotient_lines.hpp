@@ -154,8 +154,8 @@ template <class Layout>
 #endif
 }
 
-/// The slot that the lowest bit of `found` names, some slot if there is none. Bit 16 is never set by a match: it spares
-/// the branch that countr_zero takes for 0.
+/// The slot that the lowest bit of `found` names, some slot if there is none. Bit 16 lies above the slots of one line:
+/// it spares the branch that countr_zero takes for 0.
 template <class Layout, std::uint32_t BitsPerSlot = 16 / Layout::slots>
 [[nodiscard, gnu::always_inline]] inline std::uint32_t first_match(std::uint32_t found) noexcept {
     return static_cast<std::uint32_t>(std::countr_zero(found | 0x10000U)) / BitsPerSlot % Layout::slots;
@@ -177,11 +177,11 @@ template <class Layout>
     return static_cast<index_t>(index_plus_1 & (0U - static_cast<std::uint32_t>(there))) - 1;
 }
 
-/// Stores the id at its preferred place if that is empty. @return whether it was not; no branch depends on it.
+/// Stores the id at its preferred place if that is empty. @return whether it was; no branch depends on it.
 template <class Layout>
-[[nodiscard, gnu::always_inline]] inline bool taken_before(const line_table& table, std::uint64_t place,
-                                                           typename Layout::slot_type tag,
-                                                           std::uint32_t index_plus_1) noexcept {
+[[nodiscard, gnu::always_inline]] inline bool store_if_free(const line_table& table, std::uint64_t place,
+                                                            typename Layout::slot_type tag,
+                                                            std::uint32_t index_plus_1) noexcept {
     using Slot = typename Layout::slot_type;
     Slot& slot = table.slots<Layout>()[place];
     const bool taken = slot != 0;
@@ -192,7 +192,7 @@ template <class Layout>
     } else {
         slot |= (tag | static_cast<Slot>(index_plus_1)) & if_free;
     }
-    return taken;
+    return !taken;
 }
 
 template <class Layout>
@@ -257,21 +257,22 @@ template <class Layout>
     return absent;
 }
 
-/// The answer for one id, once its home line is compared: found is not 0 if it is there, in the slot that was read. No
+/// The answer for one id, once its home line is compared: found is not 0 if it is there, at that place. No
 /// branch depends on whether it is there, nor in which slot: looking at the preferred slot first would save some
 /// instructions on hits, but its mispredicted branches double the time of misses.
 template <class Layout>
-[[nodiscard, gnu::always_inline]] inline index_t answer(const line_table& table, std::uint64_t slot_read,
+[[nodiscard, gnu::always_inline]] inline index_t answer(const line_table& table, std::uint64_t place,
                                                         typename Layout::slot_type tag, std::uint32_t found) noexcept {
     if constexpr (Layout::keyed)
-        return index_if(found != 0, table.indices[slot_read]);
+        return index_if(found != 0, table.indices[place]);
     else  // a slot that matches is the tag and the index
-        return index_if(found != 0, static_cast<std::uint32_t>(table.slots<Layout>()[slot_read] - tag));
+        return index_if(found != 0, static_cast<std::uint32_t>(table.slots<Layout>()[place] - tag));
 }
 
 /// Stores an id in its home line, which has a match for it or a vacant slot: at the match, else in the first vacant
-/// slot from the preferred one on. Which of them it is decides no branch. Its link is written, or, if they are all
-/// absent already, only where it is not. @return 1 if there was a match, else 0.
+/// slot from the preferred one on. Its link is written, or, if they are all absent already, only where it is not. Which
+/// slot it is decides no branch, as long as the compiler makes a conditional move of the choice. @return 1 if there was
+/// a match, else 0.
 template <class Layout, std::uint32_t BitsPerSlot, bool LinksAreAbsent = false>
 [[gnu::always_inline]] inline std::uint32_t put_in_home_line(const line_table& table, index_t* links,
                                                              std::uint64_t place, typename Layout::slot_type tag,

@@ -6,7 +6,6 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
-#include <tsubu/id/detail/quotient_find.hpp>
 #include <tsubu/id/detail/quotient_lines.hpp>
 #include <tsubu/id/flat_lines.hpp>
 
@@ -40,10 +39,9 @@ struct line_plan {
     std::size_t stash_capacity = 0;
 };
 
-inline constexpr std::uint32_t least_range_bits = 8;                        // fewer would leave nothing to shift by
-inline constexpr std::uint64_t most_lines = (std::uint64_t{1} << 29) - 64;  // a place of 8 slots per line fits 32 bits
-inline constexpr std::uint32_t attempts_per_size = 8;  // multipliers before the table is given more lines
-inline constexpr std::uint32_t most_attempts = 64;
+inline constexpr std::uint32_t least_range_bits = 8;   // fewer would leave nothing to shift by
+inline constexpr std::uint32_t attempts_per_size = 8;  // then more lines, and full ones are no reason for another
+inline constexpr std::uint32_t most_attempts = 64;     // eight sizes, each a quarter larger: 4.8 times the lines
 
 /// The k-th of a fixed sequence of odd multipliers; the first is 2^64 / golden ratio.
 [[nodiscard]] constexpr std::uint64_t odd_multiplier(std::uint32_t k) noexcept {
@@ -63,7 +61,7 @@ template <class Layout>
 [[nodiscard]] bool shape(line_plan& plan, std::uint64_t lines) noexcept {
     auto& table = plan.table;
     const auto index_bits = static_cast<std::uint32_t>(std::bit_width(plan.demand.greatest_index + 1));
-    if (lines > most_lines) lines = most_lines;
+    lines = (std::min)(lines, (std::uint64_t{1} << 32) / Layout::slots - 64);  // a place fits 32 bits
     table.lines = static_cast<std::uint32_t>(lines);
     if constexpr (Layout::keyed) {
         table.bits = 64;

@@ -31,9 +31,8 @@ namespace tsubu {
 ///
 /// Concept:       id_storage, batched_lookup (AVX2, AVX-512), prefetchable, parallel_rebuild.
 /// Cost:          find one cache line (two in keyed lines), and no branch that depends on where in it the id is, or
-///                whether, unless that line is full; rebuild O(N)
-///                for every pattern of ids, with each of several threads hashing all and inserting its share; assign
-///                O(1) amortised; erase O(1).
+///                whether, unless that line is full; rebuild O(N) for every pattern of ids, each of several threads
+///                hashing all and inserting its share; assign O(1) amortised; erase O(1).
 /// Bytes per id:  8 | 16 | 20 (narrow | wide | keyed lines).
 /// Growth:        by assign, to twice the ids; a rebuild that needs less than a quarter gives memory back. The slot
 ///                of an erased id is taken by the same id again, or freed at the next rebuild or growth.
@@ -199,9 +198,6 @@ private:
     using table_memory = buffer<detail::cache_line, Allocator>;
     using spills = detail::spill_list<Allocator>;
     using find_function = index_t (*)(const detail::line_table&, const spills&, std::uint64_t) noexcept;
-
-    static constexpr std::size_t threading_threshold = 1
-                                                       << 18;  // below, one thread stays in the caches, and is as fast
 
     template <class Call>
     [[gnu::always_inline]] static decltype(auto) with_lines(flat_lines lines, Call&& call) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// axis: one direction of a box: where it begins and ends, and what lies beyond.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/domain/interval.hpp>
+#include <tsubu/domain/lattice.hpp>
+
+#include <cmath>     // std::fmod, std::nearbyint, std::remainder
+#include <concepts>  // std::floating_point
+#include <cstdint>   // std::int64_t
+#include <string>    // std::to_string
+
+namespace tsubu {
+
+/// A coordinate that was brought into the box, and how many periods it was away: position + shift L is where it was.
+template <class Scalar>
+struct wrapped_coordinate {
+    Scalar position;
+    std::int64_t shift;
+};
+
+/// One direction of a box. Every member is total: any finite number has a result, in O(1).
+///
+/// Equations with L = hi - lo, as the scalar rounds it; a periodic axis is lo <= x < hi, since hi is the image of lo, any
+/// other lo <= x <= hi (B1).
+template <class Scalar = double>
+class axis {
+    static_assert(std::floating_point<Scalar> && sizeof(Scalar) <= sizeof(double), "axis takes float, double or a lattice");
+
+public:
+    using scalar_type = Scalar;
+    using real_type = Scalar;  ///< in which lengths are told
+
+    /// @throws input_error unless lo < hi, both and hi - lo finite.
+    constexpr axis(Scalar lo, Scalar hi, bool periodic) : lo_(lo), hi_(hi), length_(hi - lo), periodic_(periodic) {
+        if (!detail::is_finite(lo) || !detail::is_finite(hi))
+            detail::raise<input_error>("axis", "the face " + detail::shown(detail::is_finite(lo) ? hi : lo) +
+                                                          " is not a finite number",
+                                       "give finite faces; an axis without end needs none of them to be near it");
+        if (!(lo < hi))
+            detail::raise<input_error>("axis",
+                                       "lo = " + detail::shown(lo) + " is not below hi = " + detail::shown(hi),
+                                       "give the lower face first, and a box that is not empty");
+        if (!detail::is_finite(length_))
+            detail::raise<input_error>("axis",
+                                       "the length from " + detail::shown(lo) + " to " + detail::shown(hi) +
+                                           " is more than the scalar holds",
+                                       "scale the unit of length");
+    }
+
+    [[nodiscard]] constexpr Scalar lo() const noexcept { return lo_; }
+    [[nodiscard]] constexpr Scalar hi() const noexcept { return hi_; }
+    [[nodiscard]] constexpr Scalar length() const noexcept { return length_; }
+    [[nodiscard]] constexpr bool is_periodic() const noexcept { return periodic_; }
+    /// The coordinates of the axis (B1).
+    [[nodiscard]] constexpr interval<Scalar> inside() const noexcept {
+        return {lo_, periodic_ ? detail::next_below(hi_) : hi_};
+    }
+    [[nodiscard]] constexpr bool contains(Scalar x) const noexcept { return inside().contains(x); }
+
+    /// The image of x on a periodic axis, and how many periods it was away; any other axis leaves x alone. What rounds to
+    /// hi is lo of the next period. |position + shift L - x| is a few units in the last place of the largest of them.
+    /// Beyond 2^53 periods no number tells one from the next; beyond 2^63 shift stays at its end.
+    /// @throws input_error if x is not finite.
+    [[nodiscard]] constexpr wrapped_coordinate<Scalar> wrap(Scalar x) const {
+        if (inside().contains(x) || (!periodic_ && detail::is_finite(x))) return {x, 0};
+        if (!detail::is_finite(x))
+            detail::raise<input_error>("axis::wrap", "the coordinate " + detail::shown(x) + " is not finite",
+                                       "find the particle with this position: it was lost before");
+        if (x >= hi_ && x - hi_ < length_) return settled(x - length_, 1);
+        if (x < lo_ && lo_ - x <= length_) return settled(x + length_, -1);
+        return wrap_from_afar(x);
+    }
+    /// Where x was before wrap, to within rounding.
+    [[nodiscard]] constexpr Scalar unwrap(wrapped_coordinate<Scalar> at) const noexcept {
+        return at.position + static_cast<Scalar>(at.shift) * length_;
+    }
+    /// The shortest of the displacements d + n L; of two, that which an even n gives, so that -d has the opposite answer.
+    /// Not periodic: d.
+    [[nodiscard]] Scalar minimum_image(Scalar d) const noexcept {
+        if (!periodic_ || (d <= length_ / 2 && d >= -length_ / 2)) return d;
+        return std::remainder(d, length_);  // exact
+    }
+
+private:
+    // Rounding may leave the period by one step: up to hi, which is lo of the next one, or below lo.
+    [[nodiscard]] constexpr wrapped_coordinate<Scalar> settled(Scalar position, std::int64_t shift) const noexcept {
+        if (position >= hi_) return {lo_, shift + 1};
+        return {position < lo_ ? lo_ : position, shift};
+    }
+    // The remainders are exact, so no digit is lost before the last addition, however far x is.
+    [[nodiscard]] wrapped_coordinate<Scalar> wrap_from_afar(Scalar x) const noexcept {
+        Scalar beyond = std::fmod(x, length_) - std::fmod(lo_, length_);
+        if (beyond < 0) beyond += length_;
+        if (beyond < 0) beyond += length_;
+        if (beyond >= length_) beyond -= length_;
+        const auto [position, carry] = settled(lo_ + beyond, 0);
+        const Scalar periods = std::nearbyint(x / length_ - position / length_);
+        constexpr Scalar end = 9223372036854775808.0;  // 2^63
+        if (periods >= end) return {position, (std::numeric_limits<std::int64_t>::max)()};
+        if (periods <= -end) return {position, (std::numeric_limits<std::int64_t>::min)()};
+        static_cast<void>(carry);  // the position tells it
+        return {position, static_cast<std::int64_t>(periods)};
+    }
+
+    Scalar lo_;
+    Scalar hi_;
+    Scalar length_;
+    bool periodic_;
+};
+
+/// A periodic axis whose coordinates are a lattice: every coordinate is inside, and nothing rounds.
+template <class Int>
+class axis<lattice<Int>> {
+public:
+    using scalar_type = lattice<Int>;
+    using real_type = double;
+
+    /// @throws input_error as for floating point, and if the axis is not periodic.
+    constexpr axis(double lo, double hi, bool periodic) : real_(lo, hi, true) {
+        if (!periodic)
+            detail::raise<input_error>("axis", "an axis of a lattice that is not periodic",
+                                       "make it periodic, or take double: a lattice has no outside");
+    }
+
+    [[nodiscard]] constexpr lattice<Int> lo() const noexcept { return interval<lattice<Int>>::all().first; }
+    [[nodiscard]] constexpr double length() const noexcept { return real_.length(); }
+    [[nodiscard]] static constexpr bool is_periodic() noexcept { return true; }
+    [[nodiscard]] constexpr interval<lattice<Int>> inside() const noexcept { return interval<lattice<Int>>::all(); }
+    [[nodiscard]] static constexpr bool contains(lattice<Int>) noexcept { return true; }
+    [[nodiscard]] static constexpr wrapped_coordinate<lattice<Int>> wrap(lattice<Int> x) noexcept { return {x, 0}; }
+    /// The faces and the length in real units.
+    [[nodiscard]] constexpr const axis<double>& real() const noexcept { return real_; }
+
+    /// The nearest lattice coordinate, and the periods that x was away: an error of at most L / 2^(b+1), and of what double
+    /// rounds where b > 52; what rounds up to hi is lo of the next period. @throws input_error if x is not finite.
+    [[nodiscard]] wrapped_coordinate<lattice<Int>> from_real(double x) const {
+        const auto [position, shift] = real_.wrap(x);
+        constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());  // 2^b
+        const double at = std::nearbyint((position - real_.lo()) / real_.length() * steps);
+        if (at >= steps) return {lo(), shift == (std::numeric_limits<std::int64_t>::max)() ? shift : shift + 1};
+        return {lo() + static_cast<Int>(static_cast<std::make_unsigned_t<Int>>(at)), shift};
+    }
+    /// The position of a lattice coordinate, in [lo, hi].
+    [[nodiscard]] constexpr double to_real(lattice<Int> x) const noexcept {
+        return real_.lo() + from_lower_face(x) * step();
+    }
+    /// The shortest displacement from b to a [m]; half a period is +L/2 to the higher coordinate, -L/2 to the lower.
+    [[nodiscard]] constexpr double minimum_image(lattice<Int> a, lattice<Int> b) const noexcept {
+        const Int steps = a - b;
+        if (steps == std::numeric_limits<Int>::min()) return a > b ? length() / 2 : -length() / 2;
+        return static_cast<double>(steps) * step();
+    }
+
+private:
+    [[nodiscard]] constexpr double step() const noexcept {
+        return length() / (-2.0 * static_cast<double>(std::numeric_limits<Int>::min()));
+    }
+    [[nodiscard]] static constexpr double from_lower_face(lattice<Int> x) noexcept {
+        return static_cast<double>(static_cast<std::make_unsigned_t<Int>>(
+            static_cast<std::make_unsigned_t<Int>>(x.value) -
+            static_cast<std::make_unsigned_t<Int>>(std::numeric_limits<Int>::min())));
+    }
+
+    axis<double> real_;
+};
+
+}  // namespace tsubu

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// bisection_decomposition: a tree of cuts, each through a weighted middle of the particles.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/detail/reach.hpp>
+#include <tsubu/domain/domain.hpp>
+#include <tsubu/domain/neighbor_rank.hpp>
+#include <tsubu/domain/subdomain.hpp>
+
+#include <algorithm>  // std::min, std::sort
+#include <array>      // std::array
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t, std::uint32_t
+#include <limits>     // std::numeric_limits
+#include <numeric>    // std::iota
+#include <span>       // std::span
+#include <string>     // std::to_string
+#include <vector>     // std::vector
+
+namespace tsubu {
+
+/// Recursive coordinate bisection: the box is cut across its longest edge, so that both sides have the weight that their
+/// numbers of ranks ask for, and each side again.
+///
+///     tsubu::bisection_decomposition<3> parts(box, ranks, sampled_positions);   // the same sample on all ranks
+///
+/// Concept:      decomposition.
+/// Cost:         construction O(S log S log ranks) for S samples; owner O(log ranks); subdomain O(1); neighbors O(ranks).
+/// Choose it when particles are uneven: a heap, a jet, a drum. Do not when they fill the box: brick_decomposition has fewer
+///               neighbours, and finds an owner in O(1).
+/// Source:       Berger & Bokhari 1987, doi:10.1109/TC.1987.1676942.
+template <std::size_t D, class Scalar = double>
+class bisection_decomposition {
+public:
+    using domain_type = domain<D, Scalar>;
+    using scalar_type = Scalar;
+    using real_type = typename domain_type::real_type;
+    using position_type = typename domain_type::position_type;
+    static constexpr std::size_t dimension = D;
+
+    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box count for nothing.
+    ///                 Where no sample lies, a cut halves the volume.
+    /// @param weights  of each, at least 0; empty: all 1.
+    /// @throws input_error if ranks is 0, a weight is negative or not finite, the lengths differ, or a part has too few
+    ///         numbers along every axis to be cut.
+    bisection_decomposition(const domain_type& whole, std::size_t ranks, std::span<const position_type> sample,
+                            std::span<const double> weights = {})
+        : whole_(whole) {
+        if (ranks == 0) detail::raise<input_error>("bisection_decomposition", "0 ranks", "ask for at least 1");
+        if (!weights.empty() && weights.size() != sample.size())
+            detail::raise<input_error>("bisection_decomposition",
+                                       std::to_string(weights.size()) + " weights for " +
+                                           std::to_string(sample.size()) + " positions",
+                                       "give one for each, or none");
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            if (!(weights[i] >= 0) || !detail::is_finite(weights[i]))
+                detail::raise<input_error>("bisection_decomposition",
+                                           "weight " + std::to_string(i) + " is " + detail::shown(weights[i]),
+                                           "give finite weights of at least 0");
+        std::vector<std::size_t> inside;
+        inside.reserve(sample.size());
+        for (std::size_t i = 0; i < sample.size(); ++i)
+            if (whole.contains(sample[i])) inside.push_back(i);
+        region box{};
+        for (std::size_t k = 0; k < D; ++k) box[k] = whole.along(k).inside();
+        leaves_.reserve(ranks);
+        nodes_.reserve(ranks);
+        split(box, ranks, inside, sample, weights);
+    }
+
+    [[nodiscard]] const domain_type& whole() const noexcept { return whole_; }
+    [[nodiscard]] std::size_t ranks() const noexcept { return leaves_.size(); }
+    /// The rank of any finite point: beyond the faces, that on whose side of each cut it is (B4). Precondition: no
+    /// coordinate is NaN.
+    [[nodiscard]] std::size_t owner(const position_type& x) const noexcept {
+        if (nodes_.empty()) return 0;
+        std::uint32_t at = 0;
+        for (;;) {
+            const auto& cut = nodes_[at];
+            const auto next = x[cut.axis] < cut.begin ? cut.below : cut.above;
+            if ((next & leaf) != 0) return next & ~leaf;
+            at = next;
+        }
+    }
+    /// @throws input_error if there is no such rank.
+    [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
+        check_rank("bisection_decomposition::subdomain", rank);
+        const auto& owned = leaves_[rank];
+        auto extended = owned;
+        vec<D, real_type> lo{};
+        vec<D, real_type> hi{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto inside = whole_.along(k).inside();
+            if (owned[k].first == inside.first) extended[k].first = interval<Scalar>::all().first;
+            if (owned[k].last == inside.last) extended[k].last = interval<Scalar>::all().last;
+            const auto [from, to] = stretch_of(k, owned[k]);
+            lo[k] = from;
+            hi[k] = to;
+        }
+        return {owned, extended, lo, hi};
+    }
+    /// As brick_decomposition::neighbors.
+    [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
+        check_rank("bisection_decomposition::neighbors", rank);
+        return detail::neighbors_within("bisection_decomposition::neighbors", whole_, ranks(), rank, cutoff,
+                                        [&](std::size_t other) {
+                                            std::array<detail::stretch<real_type>, D> box{};
+                                            for (std::size_t k = 0; k < D; ++k)
+                                                box[k] = stretch_of(k, leaves_[other][k]);
+                                            return box;
+                                        });
+    }
+
+private:
+    using region = std::array<interval<Scalar>, D>;
+    static constexpr std::uint32_t leaf = std::uint32_t{1} << 31;  // the rest of the word is the rank
+
+    struct node {
+        Scalar begin;  // of the upper side
+        std::uint32_t axis;
+        std::uint32_t below;
+        std::uint32_t above;
+    };
+
+    /// @return the node, or the leaf, of this region.
+    std::uint32_t split(const region& box, std::size_t ranks, std::vector<std::size_t>& members,
+                        std::span<const position_type> sample, std::span<const double> weights) {
+        if (ranks == 1) {
+            leaves_.push_back(box);
+            return static_cast<std::uint32_t>(leaves_.size() - 1) | leaf;
+        }
+        const auto below_ranks = ranks / 2;
+        const double share = static_cast<double>(below_ranks) / static_cast<double>(ranks);
+        const auto [k, begin] = choose_cut(box, ranks, share, members, sample, weights);
+        const auto number = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.push_back({begin, static_cast<std::uint32_t>(k), 0, 0});
+        std::vector<std::size_t> below;
+        std::vector<std::size_t> above;
+        for (const auto i : members) (sample[i][k] < begin ? below : above).push_back(i);
+        members = {};  // not needed any more while the sides are split
+        auto side = box;
+        side[k].last = before(begin);
+        nodes_[number].below = split(side, below_ranks, below, sample, weights);
+        side = box;
+        side[k].first = begin;
+        const auto upper = split(side, ranks - below_ranks, above, sample, weights);
+        nodes_[number].above = upper;
+        return number;
+    }
+    struct chosen_cut {
+        std::size_t axis;
+        Scalar begin;
+    };
+    /// Across the longest edge that can be cut so that each side has at least as many points as ranks.
+    chosen_cut choose_cut(const region& box, std::size_t ranks, double share, std::vector<std::size_t>& members,
+                          std::span<const position_type> sample, std::span<const double> weights) const {
+        std::array<std::size_t, D> axes{};
+        std::iota(axes.begin(), axes.end(), std::size_t{0});
+        std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
+            return edge_of(a, box[a]) > edge_of(b, box[b]);
+        });
+        for (const auto k : axes) {
+            std::uint64_t across = 1;  // points with the same coordinate k; more than ranks are as good as ranks
+            for (const auto other : axes)
+                if (other != k && across < ranks)
+                    across *= (std::min)(steps_of(box[other]), static_cast<std::uint64_t>(ranks - 1)) + 1;
+            const auto needed = [&](std::size_t side) { return (side + across - 1) / across; };
+            const auto below = needed(ranks / 2);
+            const auto above = needed(ranks - ranks / 2);
+            if (below + above - 1 > steps_of(box[k])) continue;
+            const interval<Scalar> begins{moved(box[k].first, static_cast<std::int64_t>(below)),
+                                          moved(box[k].last, 1 - static_cast<std::int64_t>(above))};
+            return {k, cut_along(k, box[k], begins, share, members, sample, weights)};
+        }
+        detail::raise<input_error>("bisection_decomposition",
+                                   "a part with fewer points that the scalar tells apart than its " +
+                                       std::to_string(ranks) + " ranks must be divided again",
+                                   "ask for fewer ranks, or scale the unit of length");
+    }
+    /// The coordinate where the upper side begins, one of `begins`: that of the sample nearest to the wished share.
+    Scalar cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double share,
+                     std::vector<std::size_t>& members, std::span<const position_type> sample,
+                     std::span<const double> weights) const {
+        const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
+        // Of equal coordinates the lower index first: all ranks must find the same cut.
+        std::sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+            return sample[a][k] < sample[b][k] || (sample[a][k] == sample[b][k] && a < b);
+        });
+        double total = 0;
+        for (const auto i : members) total += weight(i);
+        Scalar best = range.first;
+        double least = std::numeric_limits<double>::infinity();
+        double below = 0;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            const auto x = sample[members[m]][k];
+            // A cut here has all samples before this one below it: if they are lower, and it may be here.
+            if (begins.contains(x) && (m == 0 || sample[members[m - 1]][k] < x)) {
+                const double miss = below > share * total ? below - share * total : share * total - below;
+                if (miss < least) {
+                    least = miss;
+                    best = x;
+                }
+            }
+            below += weight(members[m]);
+        }
+        return total > 0 && best > range.first ? best : geometric_cut(k, range, begins, share);
+    }
+    [[nodiscard]] Scalar geometric_cut(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins,
+                                       double share) const {
+        Scalar cut{};
+        if constexpr (is_lattice<Scalar>) {
+            using Int = decltype(cut.value);
+            using Unsigned = std::make_unsigned_t<Int>;
+            const auto steps = static_cast<Unsigned>(static_cast<Unsigned>(range.last.value) -
+                                                     static_cast<Unsigned>(range.first.value));
+            cut = range.first + static_cast<Int>(static_cast<Unsigned>(static_cast<double>(steps) * share));
+            static_cast<void>(k);
+        } else {
+            const auto [from, to] = stretch_of(k, range);
+            cut = from + (to - from) / (1 / static_cast<Scalar>(share));
+        }
+        if (cut < begins.first) return begins.first;
+        return cut > begins.last ? begins.last : cut;
+    }
+    /// How many steps from the first to the last coordinate.
+    [[nodiscard]] static std::uint64_t steps_of(const interval<Scalar>& range) noexcept {
+        if constexpr (is_lattice<Scalar>)
+            return static_cast<std::uint64_t>(std::int64_t{range.last.value}) -
+                   static_cast<std::uint64_t>(std::int64_t{range.first.value});
+        else
+            return static_cast<std::uint64_t>(detail::ordinal(range.last)) -
+                   static_cast<std::uint64_t>(detail::ordinal(range.first));
+    }
+    [[nodiscard]] static Scalar moved(Scalar x, std::int64_t steps) noexcept {
+        if constexpr (is_lattice<Scalar>)
+            return x + static_cast<decltype(x.value)>(steps);
+        else
+            return detail::at_ordinal<Scalar>(detail::ordinal(x) + steps);
+    }
+    /// The length of a stretch: without a product that is added, so that fused multiply-add chooses no other axis.
+    [[nodiscard]] real_type edge_of(std::size_t k, const interval<Scalar>& range) const noexcept {
+        if constexpr (is_lattice<Scalar>) {
+            using Int = decltype(range.first.value);
+            return (static_cast<double>(steps_of(range)) + 1) *
+                   (whole_.along(k).length() / (-2.0 * static_cast<double>(std::numeric_limits<Int>::min())));
+        } else {
+            const auto [from, to] = stretch_of(k, range);
+            return to - from;
+        }
+    }
+    [[nodiscard]] static Scalar before(Scalar x) noexcept {
+        if constexpr (is_lattice<Scalar>)
+            return {static_cast<decltype(x.value)>(x.value - 1)};
+        else
+            return detail::next_below(x);
+    }
+    [[nodiscard]] static Scalar after(Scalar x) noexcept {
+        if constexpr (is_lattice<Scalar>)
+            return {static_cast<decltype(x.value)>(x.value + 1)};
+        else
+            return detail::next_above(x);
+    }
+    /// From the first coordinate to that of the next part, or to the face.
+    [[nodiscard]] detail::stretch<real_type> stretch_of(std::size_t k, const interval<Scalar>& range) const noexcept {
+        const bool at_face = range.last == whole_.along(k).inside().last;
+        if constexpr (is_lattice<Scalar>)
+            return {whole_.along(k).to_real(range.first),
+                    at_face ? whole_.real_axis(k).hi() : whole_.along(k).to_real(after(range.last))};
+        else
+            return {range.first, at_face ? whole_.along(k).hi() : after(range.last)};
+    }
+    void check_rank(const char* where, std::size_t rank) const {
+        if (rank >= ranks())
+            detail::raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks()),
+                                       "ranks count from 0");
+    }
+
+    domain_type whole_;
+    std::vector<node> nodes_;     // the first is the root
+    std::vector<region> leaves_;  // by rank
+};
+static_assert(decomposition<bisection_decomposition<3>> && decomposition<bisection_decomposition<1, float>> &&
+              decomposition<bisection_decomposition<2, lattice<std::int64_t>>>);
+
+}  // namespace tsubu

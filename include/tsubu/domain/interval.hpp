@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// interval: the coordinates from a first to a last one, and the neighbours of a floating-point number.
+#pragma once
+
+#include <bit>          // std::bit_cast
+#include <concepts>     // std::floating_point
+#include <cstdint>      // std::int64_t
+#include <limits>       // std::numeric_limits
+#include <type_traits>  // std::conditional_t
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "tsubu: -ffast-math (-ffinite-math-only) removes the tests for NaN and infinity that decide whose a particle is; \
+compile without it, or with -fno-finite-math-only after it"
+#endif
+
+namespace tsubu {
+
+/// All coordinates x with first <= x <= last. Closed on both sides, because the highest value of a lattice has no
+/// successor; for floating point, x < top is x <= the number before top.
+template <class Scalar>
+struct interval {
+    Scalar first;
+    Scalar last;
+
+    /// One comparison pair and no branch; NaN is in no interval.
+    [[nodiscard]] constexpr bool contains(Scalar x) const noexcept {
+        const bool from = x >= first;
+        const bool to = x <= last;
+        return from & to;
+    }
+    /// Every value that the type has, infinities excepted.
+    [[nodiscard]] static constexpr interval all() noexcept {
+        return {std::numeric_limits<Scalar>::lowest(), (std::numeric_limits<Scalar>::max)()};
+    }
+};
+
+namespace detail {
+
+template <std::floating_point Scalar>
+using bits_of = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
+
+/// The next number towards +infinity, as std::nextafter; constexpr. The highest number stays.
+template <std::floating_point Scalar>
+[[nodiscard]] constexpr Scalar next_above(Scalar x) noexcept {
+    using Bits = bits_of<Scalar>;
+    if (x >= (std::numeric_limits<Scalar>::max)()) return x;
+    if (x == 0) return std::numeric_limits<Scalar>::denorm_min();
+    const auto bits = std::bit_cast<Bits>(x);
+    return std::bit_cast<Scalar>(x > 0 ? bits + 1 : bits - 1);
+}
+template <std::floating_point Scalar>
+[[nodiscard]] constexpr Scalar next_below(Scalar x) noexcept {
+    return -next_above(-x);
+}
+
+/// The place of a finite number among all of its type: increasing, 1 from a number to the next.
+template <std::floating_point Scalar>
+[[nodiscard]] constexpr std::int64_t ordinal(Scalar x) noexcept {
+    if (x == 0) return 0;
+    const auto size = static_cast<std::int64_t>(std::bit_cast<bits_of<Scalar>>(x < 0 ? -x : x));
+    return x < 0 ? -size : size;
+}
+/// The number at a place.
+template <std::floating_point Scalar>
+[[nodiscard]] constexpr Scalar at_ordinal(std::int64_t place) noexcept {
+    const auto size = std::bit_cast<Scalar>(static_cast<bits_of<Scalar>>(place < 0 ? -place : place));
+    return place < 0 ? -size : size;
+}
+
+/// NaN and infinities are not finite: x - x is 0 for all others.
+template <std::floating_point Scalar>
+[[nodiscard]] constexpr bool is_finite(Scalar x) noexcept {
+    return x - x == 0;
+}
+
+}  // namespace detail
+}  // namespace tsubu

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Does a decomposition keep the four laws of its concept? A suite for any test framework, or none.
+///
+///     tsubu::testing::check_decomposition(parts, 7, 1000, [](bool ok, std::string_view law) {
+///         if (!ok) { std::cerr << law << '\n'; std::exit(1); }
+///     });
+///
+/// Every law that is checked is reported, kept or not; a broken one with the point, or the rank and the cutoff, and the
+/// seed that broke it behind its text. The text begins with "law" and the number that it has in domain/concepts.hpp.
+#pragma once
+
+#include <tsubu/core/random.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/domain/concepts.hpp>
+
+#include <algorithm>    // std::sort
+#include <array>        // std::array
+#include <cmath>        // std::nextafter, std::sqrt
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int64_t
+#include <limits>       // std::numeric_limits
+#include <numeric>      // std::midpoint
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <type_traits>  // std::remove_reference_t
+#include <vector>       // std::vector
+
+namespace tsubu::testing {
+
+/// The laws of decomposition as the suite reports them: a name for each text; never an object.
+struct decomposition_law {
+    decomposition_law() = delete;
+
+    static constexpr const char* owned = "law 1: one rank owns a point of the domain, and none any other";
+    static constexpr const char* extended = "law 1: owns_extended of one rank has any finite point";
+    static constexpr const char* not_finite = "law 1: no rank owns what is not finite";
+    static constexpr const char* owner = "law 2: owner is the rank whose owns_extended has the point";
+    static constexpr const char* owner_inside = "law 2: of a point of the domain, owner is the rank that owns it";
+    static constexpr const char* complete = "law 3: who lies within the cutoff is a neighbour";
+    static constexpr const char* near = "law 3: who lies beyond the cutoff, rounding aside, is no neighbour";
+    static constexpr const char* increasing = "law 3: neighbours increase by rank and shift, each named once";
+    static constexpr const char* not_itself = "law 3: no rank is its own neighbour without a shift";
+    static constexpr const char* mutual = "law 4: if (b, s) is a neighbour of a, then (a, -s) is one of b";
+};
+
+}  // namespace tsubu::testing
+
+namespace tsubu::detail {
+
+/// The coordinate beside x, up or down: nothing lies between them.
+template <class Scalar>
+[[nodiscard]] Scalar beside(Scalar x, bool up) {
+    if constexpr (is_lattice<Scalar>)
+        return x + static_cast<decltype(x.value)>(up ? 1 : -1);
+    else
+        return std::nextafter(x, up ? (std::numeric_limits<Scalar>::max)() : std::numeric_limits<Scalar>::lowest());
+}
+/// The place of a coordinate among all others: increasing, without gaps.
+template <class Scalar>
+[[nodiscard]] std::int64_t place_of(Scalar x) {
+    if constexpr (is_lattice<Scalar>)
+        return x.value;
+    else
+        return ordinal(x);
+}
+template <class Scalar>
+[[nodiscard]] Scalar at_place(std::int64_t place) {
+    if constexpr (is_lattice<Scalar>)
+        return {static_cast<decltype(Scalar{}.value)>(place)};
+    else
+        return at_ordinal<Scalar>(place);
+}
+/// A coordinate of any size: of floating point, any finite number.
+template <class Scalar>
+[[nodiscard]] Scalar any_coordinate(random_stream& random) {
+    constexpr auto lowest = interval<Scalar>::all().first;
+    constexpr auto highest = interval<Scalar>::all().last;
+    if constexpr (is_lattice<Scalar>) {
+        return {static_cast<decltype(lowest.value)>(random())};
+    } else {
+        const auto most = static_cast<std::uint64_t>(place_of(highest));
+        const auto place = static_cast<std::int64_t>(random.below(most + 1));
+        return at_place<Scalar>(random.below(2) == 0 ? place : -place);
+    }
+}
+/// A coordinate between two others, these included.
+template <class Scalar>
+[[nodiscard]] Scalar coordinate_between(Scalar first, Scalar last, random_stream& random) {
+    if constexpr (is_lattice<Scalar>) {
+        using Unsigned = std::make_unsigned_t<decltype(first.value)>;
+        const auto steps = static_cast<Unsigned>(static_cast<Unsigned>(last.value) - static_cast<Unsigned>(first.value));
+        const auto step = steps == (std::numeric_limits<Unsigned>::max)() ? random() : random.below(std::uint64_t{steps} + 1);
+        return first + static_cast<decltype(first.value)>(static_cast<Unsigned>(step));
+    } else {
+        const auto x = first + static_cast<Scalar>(random.unit()) * (last - first);
+        return x < first ? first : x > last ? last : x;
+    }
+}
+
+template <class Decomposition, class Check>
+class decomposition_examiner {
+    static constexpr std::size_t D = Decomposition::dimension;
+    using scalar = typename Decomposition::scalar_type;
+    using real = typename Decomposition::real_type;
+    using position = typename Decomposition::position_type;
+    using law = testing::decomposition_law;
+    using neighbors_of_rank = std::vector<neighbor_rank<D>>;
+
+public:
+    decomposition_examiner(const Decomposition& parts, std::uint64_t seed, Check& check)
+        : parts_(parts), seed_(seed), random_(seed), check_(check) {
+        for (std::size_t rank = 0; rank < parts.ranks(); ++rank) subdomains_.push_back(parts.subdomain(rank));
+    }
+
+    /// Every face, edge and corner of every subdomain, and what lies beside them.
+    void examine_faces() {
+        for (std::size_t rank = 0; rank < parts_.ranks(); ++rank) {
+            std::array<std::vector<scalar>, D> along;
+            position middle{};
+            for (std::size_t k = 0; k < D; ++k) {
+                const auto lo = subdomains_[rank].lo()[k];
+                const auto hi = subdomains_[rank].hi()[k];
+                middle[k] = at_real(k, std::midpoint(lo, hi));
+                along[k] = {at_real(k, lo), at_real(k, hi), parts_.whole().along(k).inside().first,
+                            parts_.whole().along(k).inside().last};
+            }
+            for (std::size_t k = 0; k < D; ++k) {
+                // Where owner changes, whatever the subdomain says about its faces.
+                for (const bool up : {false, true}) along[k].push_back(last_of_same_owner(middle, k, up));
+                for (std::size_t n = along[k].size(); n-- > 0;)
+                    for (const bool up : {false, true}) along[k].push_back(beside(along[k][n], up));
+                along[k].push_back(middle[k]);
+                std::sort(along[k].begin(), along[k].end());
+                along[k].erase(std::unique(along[k].begin(), along[k].end()), along[k].end());
+            }
+            position x{};
+            examine_product(along, x, 0);
+        }
+    }
+    /// As many points inside, beyond faces and far away.
+    void examine_random(std::size_t points) {
+        const auto anywhere = [&](std::size_t) { return any_coordinate<scalar>(random_); };
+        const auto inside = [&](std::size_t k) {
+            const auto [first, last] = parts_.whole().along(k).inside();
+            return coordinate_between(first, last, random_);
+        };
+        for (std::size_t i = 0; i < points; ++i) {
+            position x{};
+            for (std::size_t k = 0; k < D; ++k) x[k] = inside(k);
+            examine(x);
+            x[random_.below(D)] = anywhere(0);
+            examine(x);
+            for (std::size_t k = 0; k < D; ++k) x[k] = anywhere(k);
+            examine(x);
+        }
+        if constexpr (!is_lattice<scalar>) {
+            constexpr auto infinity = std::numeric_limits<scalar>::infinity();
+            for (std::size_t k = 0; k < D; ++k)
+                for (const auto bad : {std::numeric_limits<scalar>::quiet_NaN(), infinity, -infinity}) {
+                    position x{};
+                    for (std::size_t j = 0; j < D; ++j) x[j] = j == k ? bad : inside(j);
+                    for (const auto& mine : subdomains_)
+                        expect(!mine.owns(x) && !mine.owns_extended(x), law::not_finite, [&] { return shown_point(x); });
+                }
+        }
+    }
+    /// No, small, equal, and large cutoffs.
+    void examine_neighbors() {
+        const auto box = parts_.whole().min_extent().width;
+        auto thinnest = box;
+        for (const auto& mine : subdomains_) thinnest = (std::min)(thinnest, mine.min_extent().width);
+        for (const auto cutoff : {real{0}, thinnest / 3, beside(thinnest, false), thinnest, beside(thinnest, true),
+                                  thinnest * real{2.5}, box / 2, box / 2 + box / 16, 2 * box + box / 4}) {
+            // Large ones give every rank as neighbour of every other, many times: some ranks stand for all.
+            if (cutoff <= (std::numeric_limits<real>::max)() / 4) examine_neighbors(cutoff, cutoff > box ? 4 : 16);
+        }
+    }
+
+private:
+    void examine(const position& x) {
+        std::size_t owners = 0;
+        std::size_t extended = 0;
+        for (const auto& mine : subdomains_) {
+            owners += mine.owns(x) ? 1U : 0U;
+            extended += mine.owns_extended(x) ? 1U : 0U;
+        }
+        const bool inside = parts_.whole().contains(x);
+        const auto owner = parts_.owner(x);
+        const auto found = [&] {
+            return shown_point(x) + (inside ? ", inside" : ", outside") + ", is owned by " + shown(owners) +
+                   ", extended by " + shown(extended) + " ranks, its owner is " + shown(owner);
+        };
+        expect(owners == (inside ? 1U : 0U), law::owned, found);
+        expect(extended == 1, law::extended, found);
+        expect(owner < parts_.ranks() && subdomains_[owner].owns_extended(x), law::owner, found);
+        expect(!inside || (owner < parts_.ranks() && subdomains_[owner].owns(x)), law::owner_inside, found);
+    }
+    void examine_product(const std::array<std::vector<scalar>, D>& along, position& x, std::size_t k) {
+        if (k == D) return examine(x);
+        for (const auto coordinate : along[k]) {
+            x[k] = coordinate;
+            examine_product(along, x, k + 1);
+        }
+    }
+    [[nodiscard]] scalar at_real(std::size_t k, real x) const {
+        if constexpr (is_lattice<scalar>)
+            return parts_.whole().along(k).from_real(x).position;
+        else
+            return x;
+    }
+    [[nodiscard]] scalar last_of_same_owner(position x, std::size_t k, bool up) const {
+        const auto owner = parts_.owner(x);
+        const auto all = interval<scalar>::all();
+        auto same = place_of(x[k]);
+        x[k] = up ? all.last : all.first;
+        if (parts_.owner(x) == owner) return x[k];
+        auto other = place_of(x[k]);
+        for (auto middle = std::midpoint(same, other); middle != same && middle != other;
+             middle = std::midpoint(same, other)) {
+            x[k] = at_place<scalar>(middle);
+            (parts_.owner(x) == owner ? same : other) = middle;
+        }
+        return at_place<scalar>(same);
+    }
+
+    void examine_neighbors(real cutoff, std::size_t most_ranks) {
+        const auto ranks = parts_.ranks();
+        std::vector<neighbors_of_rank> known(ranks);
+        for (std::size_t rank = 0; rank < ranks; ++rank) known[rank] = parts_.neighbors(rank, cutoff);
+        const auto stride = ranks / most_ranks + 1;
+        for (std::size_t rank = random_.below(stride); rank < ranks; rank += stride) {
+            const auto& found = known[rank];
+            const auto at = [&] {
+                return "rank " + shown(rank) + " of " + shown(ranks) + ", cutoff " + shown(cutoff);
+            };
+            bool increase = true;
+            for (std::size_t i = 1; i < found.size(); ++i) increase = increase && found[i - 1] < found[i];
+            expect(increase, law::increasing, at);
+            for (const auto& [other, shift] : found) {
+                const bool itself = other == rank && shift == image_shift<D>{};
+                expect(!itself, law::not_itself, at);
+                image_shift<D> back{};
+                for (std::size_t k = 0; k < D; ++k) back[k] = -shift[k];
+                expect(other < ranks && has(known[other], {rank, back}), law::mutual,
+                       [&, other = other] { return at() + ", neighbour " + shown(other); });
+            }
+            auto sorted = found;
+            std::sort(sorted.begin(), sorted.end());
+            for (std::size_t other = 0; other < ranks; ++other) {
+                image_shift<D> shift{};
+                compare_images(sorted, rank, other, cutoff, shift, 0);
+            }
+        }
+    }
+    [[nodiscard]] static bool has(const neighbors_of_rank& found, const neighbor_rank<D>& wanted) {
+        return std::find(found.begin(), found.end(), wanted) != found.end();
+    }
+    /// Every image that could be near, and one more on each side.
+    void compare_images(const neighbors_of_rank& found, std::size_t rank, std::size_t other, real cutoff,
+                        image_shift<D>& shift, std::size_t k) {
+        if (k < D) {
+            const auto& along = parts_.whole().real_axis(k);
+            const auto most = along.is_periodic() ? static_cast<std::int64_t>(cutoff / along.length()) + 2 : 0;
+            for (shift[k] = -most; shift[k] <= most; ++shift[k]) compare_images(found, rank, other, cutoff, shift, k + 1);
+            return;
+        }
+        if (other == rank && shift == image_shift<D>{}) return;
+        // In units of the cutoff, or of nothing if that is 0: then gaps are 0 or too large.
+        const long double unit = cutoff > 0 ? cutoff : std::numeric_limits<real>::min();
+        long double square = 0;
+        long double rounding = 0;
+        for (std::size_t j = 0; j < D; ++j) {
+            const auto& along = parts_.whole().real_axis(j);
+            const long double moved = static_cast<long double>(shift[j]) * along.length() / unit;
+            const auto face = [&](real x) { return static_cast<long double>(x) / unit; };
+            const auto& a = subdomains_[rank];
+            const auto& b = subdomains_[other];
+            const long double gap = (std::max)({face(a.lo()[j]) - face(b.hi()[j]) - moved,
+                                                face(b.lo()[j]) - face(a.hi()[j]) + moved, 0.0L});
+            square += gap * gap;
+            rounding = (std::max)({rounding, moved, -moved, std::abs(face(along.lo())), std::abs(face(along.hi()))});
+        }
+        rounding = 64 * static_cast<long double>(std::numeric_limits<real>::epsilon()) * (rounding + 1);
+        const long double distance = std::sqrt(square);
+        const long double wanted = cutoff > 0 ? 1U : 0U;
+        const auto what = [&] {
+            auto text = "rank " + shown(rank) + " of " + shown(parts_.ranks()) + ", neighbour " + shown(other) + " shifted by";
+            for (const auto n : shift) text += ' ' + shown(n);
+            return text + ", cutoff " + shown(cutoff) + ", distance " + shown(static_cast<double>(distance)) + " of it";
+        };
+        const bool listed = std::binary_search(found.begin(), found.end(), neighbor_rank<D>{other, shift});
+        expect(listed || distance + rounding > wanted, law::complete, what);
+        expect(!listed || distance <= wanted + rounding, law::near, what);
+    }
+
+    [[nodiscard]] static std::string shown_point(const position& x) {
+        std::string text = "x =";
+        for (const auto coordinate : x) text += ' ' + shown(coordinate);
+        return text;
+    }
+    template <class What>
+    void expect(bool kept, const char* text, What&& what) {
+        if (kept) return check_(true, std::string_view(text));
+        check_(false, std::string_view(std::string(text) + "; " + what() + "; seed " + shown(seed_)));
+    }
+
+    const Decomposition& parts_;
+    std::uint64_t seed_;
+    random_stream random_;
+    Check& check_;
+    std::vector<subdomain<D, scalar>> subdomains_;
+};
+
+}  // namespace tsubu::detail
+
+namespace tsubu::testing {
+
+/// Does this decomposition keep laws 1 to 4?
+///
+/// @param seed    same seed, same run, on every machine
+/// @param points  random ones, of each of three kinds: inside, beyond one face, far away
+/// @param check   called as check(bool kept, std::string_view law), many times per point
+/// Complexity: O(ranks) per point; faces: about 10^D points per rank.
+template <decomposition Decomposition, class Check>
+void check_decomposition(const Decomposition& parts, std::uint64_t seed, std::size_t points, Check&& check) {
+    detail::decomposition_examiner<Decomposition, std::remove_reference_t<Check>> examiner(parts, seed, check);
+    examiner.examine_faces();
+    examiner.examine_random(points);
+    examiner.examine_neighbors();
+}
+
+/// Laws 1 and 2 alone: for many boxes and rank counts.
+template <decomposition Decomposition, class Check>
+void check_partition(const Decomposition& parts, std::uint64_t seed, std::size_t points, Check&& check) {
+    detail::decomposition_examiner<Decomposition, std::remove_reference_t<Check>> examiner(parts, seed, check);
+    examiner.examine_faces();
+    examiner.examine_random(points);
+}
+
+}  // namespace tsubu::testing

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Does the suite for decompositions catch what it is there for?
+#include "broken_decompositions.hpp"
+
+#include <tsubu/testing/decomposition_conformance.hpp>
+
+#include "support/catch.hpp"
+
+#include <set>
+#include <string>
+
+namespace {
+
+using namespace tsubu::testing;
+
+/// The laws that were broken, by what stands before the colon; and the first text.
+struct decomposition_verdict {
+    void operator()(bool kept, std::string_view law) {
+        ++checked;
+        if (kept) return;
+        if (broken.empty()) first = law;
+        broken.insert(std::string(law.substr(0, law.find(':'))));
+    }
+    std::size_t checked = 0;
+    std::set<std::string> broken;
+    std::string first;
+};
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("a broken decomposition is caught by the number of its law", "[domain][conformance]",
+                        broken::decomposition_twins) {
+    static_assert(tsubu::decomposition<TestType>);
+    decomposition_verdict seen;
+    check_decomposition(TestType{}, 1, 300, seen);
+    INFO("breaks " << TestType::breaks << ", first caught: " << seen.first);
+    CHECK(seen.broken.count(TestType::breaks) == 1);
+    // Who breaks a law about points is not blamed for neighbours, and the other way round.
+    const bool about_points = TestType::breaks < std::string("law 3");
+    CHECK((!about_points || (seen.broken.count("law 3") == 0 && seen.broken.count("law 4") == 0)));
+    CHECK((about_points || (seen.broken.count("law 1") == 0 && seen.broken.count("law 2") == 0)));
+}
+
+TEST_CASE("a sound decomposition is not blamed", "[domain][conformance]") {
+    decomposition_verdict seen;
+    check_decomposition(broken::sound_bricks{}, 1, 1000, seen);
+    INFO(seen.first);
+    CHECK(seen.broken.empty());
+    CHECK(seen.checked > 10'000);
+}
+
+TEST_CASE("the text of a broken law names the point, its owners and the seed", "[domain][conformance]") {
+    decomposition_verdict seen;
+    check_decomposition(broken::gap_of_one_place{}, 77, 10, seen);
+    INFO(seen.first);
+    CHECK(seen.first.rfind("law 1: ", 0) == 0);
+    CHECK(seen.first.find("x = ") != std::string::npos);
+    CHECK(seen.first.find("is owned by 0, extended by 0 ranks, its owner is ") != std::string::npos);
+    CHECK(seen.first.find("seed 77") != std::string::npos);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The decompositions and the boxes, and nothing else.
+#include <tsubu/testing/decomposition_conformance.hpp>
+
+#include "support/catch.hpp"
+
+#include <tsubu/domain/bisection_decomposition.hpp>
+#include <tsubu/domain/brick_decomposition.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace {
+
+using tsubu::bisection_decomposition;
+using tsubu::brick_decomposition;
+using tsubu::domain;
+using tsubu::lattice;
+using tsubu::vec;
+
+/// Counts, and keeps the text of the first law that was broken.
+struct ledger {
+    void operator()(bool kept, std::string_view law) {
+        ++checked;
+        if (!kept && first.empty()) first = law;
+    }
+    std::size_t checked = 0;
+    std::string first;
+};
+#define CHECK_KEPT(seen)        \
+    do {                        \
+        INFO((seen).first);     \
+        CHECK((seen).first.empty()); \
+        CHECK((seen).checked > 0);   \
+    } while (false)
+
+constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 7, 8, 12, 16, 61, 64};
+
+template <std::size_t D, class Scalar>
+domain<D, Scalar> box_of_size(double scale, unsigned periodic) {
+    using box = domain<D, Scalar>;
+    using real = typename box::real_type;
+    typename box::real_position_type lo{};
+    typename box::real_position_type hi{};
+    typename box::options with{};
+    for (std::size_t k = 0; k < D; ++k) {
+        lo[k] = static_cast<real>(-0.31 * scale * static_cast<double>(k));
+        hi[k] = lo[k] + static_cast<real>(scale * (1 + 0.37 * static_cast<double>(k)));
+        with.periodic[k] = tsubu::is_lattice<Scalar> || (periodic >> k & 1U) != 0;
+    }
+    return {lo, hi, with};
+}
+/// Most of them near the lower faces, some on one plane.
+template <std::size_t D, class Scalar>
+std::vector<vec<D, Scalar>> uneven_sample(const domain<D, Scalar>& box) {
+    tsubu::random_stream random(5);
+    std::vector<vec<D, Scalar>> sample(500);
+    for (auto& x : sample)
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto u = random.below(4) == 0 ? 0.25 : random.unit();
+            if constexpr (tsubu::is_lattice<Scalar>)
+                x[k] = box.along(k).from_real(box.real_axis(k).lo() + u * u * box.real_axis(k).length()).position;
+            else
+                x[k] = box.along(k).lo() + static_cast<Scalar>(u * u) * box.along(k).length();
+        }
+    return sample;
+}
+
+template <std::size_t D, class Scalar, class Check>
+void for_both(const domain<D, Scalar>& box, std::size_t ranks, Check&& check) {
+    check(brick_decomposition<D, Scalar>(box, ranks));
+    check(bisection_decomposition<D, Scalar>(box, ranks, {}));
+    check(bisection_decomposition<D, Scalar>(box, ranks, uneven_sample(box)));
+}
+
+template <std::size_t D, class Scalar>
+void check_all_laws() {
+    for (const std::size_t ranks : some_ranks)
+        for (const unsigned periodic : {0U, 1U, 7U}) {
+            if (tsubu::is_lattice<Scalar> && periodic != 7) continue;
+            for_both(box_of_size<D, Scalar>(1, periodic), ranks, [&](const auto& parts) {
+                ledger seen;
+                tsubu::testing::check_decomposition(parts, ranks, 100, seen);
+                CAPTURE(D, ranks, periodic);
+                CHECK_KEPT(seen);
+            });
+        }
+}
+
+template <std::size_t D, class Scalar>
+void check_scales() {
+    for (const double scale : {1e-300, 1e-150, 1e-13, 1e-7, 1e5, 134217728.0, 1e9, 1e15, 1e150, 1e300}) {
+        if (sizeof(Scalar) == 4 && !tsubu::is_lattice<Scalar> && (scale < 1e-30 || scale > 1e30)) continue;
+        for (const std::size_t ranks : {1U, 2U, 6U, 13U})
+            for_both(box_of_size<D, Scalar>(scale, 5), ranks, [&](const auto& parts) {
+                ledger seen;
+                tsubu::testing::check_decomposition(parts, ranks, 30, seen);
+                CAPTURE(D, ranks, scale);
+                CHECK_KEPT(seen);
+            });
+    }
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("decompositions keep all laws, up to 64 ranks", "[domain][conformance][I6][I7][F3][F4]", double, float,
+                   lattice<std::int32_t>, lattice<std::int64_t>) {
+    check_all_laws<1, TestType>();
+    check_all_laws<2, TestType>();
+    check_all_laws<3, TestType>();
+}
+
+TEMPLATE_TEST_CASE("decompositions keep all laws at every scale", "[domain][conformance][I6][I7][F3]", double, float,
+                   lattice<std::int32_t>, lattice<std::int64_t>) {
+    check_scales<1, TestType>();
+    check_scales<2, TestType>();
+    check_scales<3, TestType>();
+}
+
+TEST_CASE("every number of ranks from 1 to 64 shares the space", "[domain][conformance][I6][I7][F3]") {
+    for (std::size_t ranks = 1; ranks <= 64; ++ranks)
+        for (const double scale : {1e-300, 1e-7, 1.0, 1e9, 1e300})
+            for_both(box_of_size<2, double>(scale, 1), ranks, [&](const auto& parts) {
+                ledger seen;
+                tsubu::testing::check_partition(parts, ranks, 30, seen);
+                CAPTURE(ranks, scale);
+                CHECK_KEPT(seen);
+            });
+}
+
+TEST_CASE("given cuts, very uneven, keep all laws", "[domain][conformance][F3]") {
+    const auto box = box_of_size<2, double>(1, 3);
+    using tsubu::cuts;
+    const auto y = box.along(1).lo();
+    const brick_decomposition<2> bricks(
+        box, std::array{cuts<double>(box.along(0), {1e-300, 0.5, std::nextafter(0.5, 1.0)}),
+                        cuts<double>(box.along(1), {std::nextafter(y, 1.0), std::nextafter(box.along(1).hi(), 0.0)})});
+    ledger seen;
+    tsubu::testing::check_partition(bricks, 1, 1000, seen);
+    CHECK_KEPT(seen);
+}
+
+TEST_CASE("ten million random points have one owner each", "[domain][conformance][slow][I6][I7]") {
+    for (const std::size_t ranks : {3U, 8U, 24U, 64U})
+        for_both(box_of_size<3, double>(1, 5), ranks, [&](const auto& parts) {
+            ledger seen;
+            tsubu::testing::check_partition(parts, ranks, 300'000, seen);
+            CHECK_KEPT(seen);
+        });
+}

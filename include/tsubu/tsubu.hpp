@@ -12,6 +12,7 @@
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
 
 #include <tsubu/id/adaptive_storage.hpp>
 #include <tsubu/id/bitmap_storage.hpp>
@@ -29,3 +30,21 @@
 #include <tsubu/id/prime.hpp>
 #include <tsubu/id/same_id_links.hpp>
 #include <tsubu/id/sizing.hpp>
+
+#include <tsubu/domain/axis.hpp>
+#include <tsubu/domain/bisection_decomposition.hpp>
+#include <tsubu/domain/border.hpp>
+#include <tsubu/domain/brick_decomposition.hpp>
+#include <tsubu/domain/cell_decomposition.hpp>
+#include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/cuts.hpp>
+#include <tsubu/domain/domain.hpp>
+#include <tsubu/domain/ghost.hpp>
+#include <tsubu/domain/interval.hpp>
+#include <tsubu/domain/lattice.hpp>
+#include <tsubu/domain/neighbor_rank.hpp>
+#include <tsubu/domain/points.hpp>
+#include <tsubu/domain/process_grid.hpp>
+#include <tsubu/domain/subdomain.hpp>
+#include <tsubu/domain/triclinic_box.hpp>
+#include <tsubu/domain/wedge.hpp>

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,6 +20,7 @@ namespace tsubu::testing::broken {
 /// What the twins share: everything right. Bricks 3 x 2 in a box that is periodic along x.
 class sound_bricks {
 public:
+    using box_type = domain<2>;
     using scalar_type = double;
     using real_type = double;
     using position_type = vec<2>;
@@ -27,7 +29,8 @@ public:
     static constexpr double length = 0.7;
 
     [[nodiscard]] std::size_t ranks() const noexcept { return bricks_.ranks(); }
-    [[nodiscard]] std::size_t owner(position_type x) const noexcept { return bricks_.owner(x); }
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept { return bricks_.owner(x); }
+    void owner(const points<2>& x, std::span<rank_t> owners) const { bricks_.owner(x, owners); }
     [[nodiscard]] const domain<2>& whole() const noexcept { return bricks_.whole(); }
     [[nodiscard]] tsubu::subdomain<2> subdomain(std::size_t rank) const { return bricks_.subdomain(rank); }
     [[nodiscard]] std::vector<neighbor_rank<2>> neighbors(std::size_t rank, double cutoff) const {
@@ -115,9 +118,12 @@ struct low_side_is_lost : sound_bricks {
 /// The formula alone, without a look at the cuts.
 struct owner_by_formula : sound_bricks {
     static constexpr const char* breaks = "law 2";
-    [[nodiscard]] std::size_t owner(position_type x) const noexcept {
+    void owner(const points<2>& x, std::span<rank_t> owners) const {
+        for (std::size_t i = 0; i < x.size(); ++i) owners[i] = owner(x[i]);
+    }
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
         const auto part = [](double share, double parts) {
-            return static_cast<std::size_t>(std::clamp(std::floor(share * parts), 0.0, parts - 1));
+            return static_cast<rank_t>(std::clamp(std::floor(share * parts), 0.0, parts - 1));
         };
         return part((x[0] - lo_x) / length, 3) * 2 + part(x[1], 2);
     }
@@ -125,18 +131,30 @@ struct owner_by_formula : sound_bricks {
 /// Numbered along the other axis first.
 struct ranks_swapped : sound_bricks {
     static constexpr const char* breaks = "law 2";
-    [[nodiscard]] std::size_t owner(position_type x) const noexcept {
+    void owner(const points<2>& x, std::span<rank_t> owners) const {
+        for (std::size_t i = 0; i < x.size(); ++i) owners[i] = owner(x[i]);
+    }
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
         const auto at = bricks_.place(bricks_.owner(x));
-        return at[1] * 3 + at[0];
+        return static_cast<rank_t>(at[1] * 3 + at[0]);
     }
 };
 /// Points beyond the periodic face go to the rank of their image, points there are extended by another.
 struct owner_of_image : sound_bricks {
     static constexpr const char* breaks = "law 2";
-    [[nodiscard]] std::size_t owner(position_type x) const noexcept {
-        if (x[0] >= lo_x + length) x[0] -= length;
-        return bricks_.owner(x);
+    void owner(const points<2>& x, std::span<rank_t> owners) const {
+        for (std::size_t i = 0; i < x.size(); ++i) owners[i] = owner(x[i]);
     }
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
+        return bricks_.owner({x[0] >= lo_x + length ? x[0] - length : x[0], x[1]});
+    }
+};
+
+/// The batch guesses, and does not look at the cuts.
+struct batch_by_formula : sound_bricks {
+    static constexpr const char* breaks = "law 2";
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept { return sound_bricks::owner(x); }
+    void owner(const points<2>& x, std::span<rank_t> owners) const { owner_by_formula{}.owner(x, owners); }
 };
 
 // --- law 3 ----------------------------------------------------------------------------------------------------------
@@ -175,7 +193,7 @@ struct neighbor_of_itself : sound_bricks {
     static constexpr const char* breaks = "law 3";
     [[nodiscard]] std::vector<neighbor_rank<2>> neighbors(std::size_t rank, double cutoff) const {
         auto found = bricks_.neighbors(rank, cutoff);
-        found.push_back({rank, {0, 0}});
+        found.push_back({static_cast<rank_t>(rank), {0, 0}});
         std::sort(found.begin(), found.end());
         return found;
     }
@@ -222,7 +240,7 @@ struct shift_of_wrong_sign : sound_bricks {
 
 using decomposition_twins =
     std::tuple<closed_upper_faces, gap_of_one_place, open_top, padded_face, two_extended_owners, low_side_is_lost,
-               owner_by_formula, ranks_swapped, owner_of_image, lost_corner, nearest_only, no_self_image,
+               owner_by_formula, ranks_swapped, owner_of_image, batch_by_formula, lost_corner, nearest_only, no_self_image,
                neighbor_of_itself, named_twice, too_many, one_sided, shift_of_wrong_sign>;
 
 }  // namespace tsubu::testing::broken

@@ -14,7 +14,7 @@
 
 #include <concepts>     // std::integral, std::same_as, std::signed_integral
 #include <cstddef>      // std::size_t
-#include <cstdint>      // std::int32_t
+#include <cstdint>      // std::int32_t, std::uint32_t
 #include <limits>       // std::numeric_limits
 #include <type_traits>  // std::make_unsigned_t
 
@@ -23,6 +23,9 @@ namespace tsubu {
 /// Local index of a particle. 32 bits: a rank holds fewer than 2^31 particles, and half the memory of every map
 /// is indices.
 using index_t = std::int32_t;
+
+/// One of the processes, or threads, that share a simulation: 0, 1, ... as in MPI.
+using rank_t = std::uint32_t;
 
 /// The index of nothing: what a look-up answers for an id that is not on this rank.
 inline constexpr index_t absent = -1;

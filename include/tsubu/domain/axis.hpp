@@ -8,7 +8,7 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/lattice.hpp>
 
-#include <cmath>     // std::fmod, std::nearbyint, std::remainder
+#include <cmath>     // std::fma, std::fmod, std::nearbyint, std::remainder
 #include <concepts>  // std::floating_point
 #include <cstdint>   // std::int64_t
 #include <string>    // std::to_string
@@ -78,12 +78,18 @@ public:
     [[nodiscard]] constexpr Scalar unwrap(wrapped_coordinate<Scalar> at) const noexcept {
         return at.position + static_cast<Scalar>(at.shift) * length_;
     }
+    /// What a generic program asks of a lattice; for floating point it is nothing, or wrap.
+    [[nodiscard]] constexpr const axis& real() const noexcept { return *this; }
+    [[nodiscard]] constexpr wrapped_coordinate<Scalar> from_real(Scalar x) const { return wrap(x); }
+    [[nodiscard]] constexpr Scalar to_real(Scalar x) const noexcept { return x; }
     /// The shortest of the displacements d + n L; of two, that which an even n gives, so that -d has the opposite answer.
     /// Not periodic: d.
     [[nodiscard]] Scalar minimum_image(Scalar d) const noexcept {
         if (!periodic_ || (d <= length_ / 2 && d >= -length_ / 2)) return d;
         return std::remainder(d, length_);  // exact
     }
+    /// The shortest displacement from b to an image of a.
+    [[nodiscard]] Scalar minimum_image(Scalar a, Scalar b) const noexcept { return minimum_image(a - b); }
 
 private:
     // Rounding may leave the period by one step: up to hi, which is lo of the next one, or below lo.
@@ -144,9 +150,13 @@ public:
         if (at >= steps) return {lo(), shift == (std::numeric_limits<std::int64_t>::max)() ? shift : shift + 1};
         return {lo() + static_cast<Int>(static_cast<std::make_unsigned_t<Int>>(at)), shift};
     }
-    /// The position of a lattice coordinate, in [lo, hi].
-    [[nodiscard]] constexpr double to_real(lattice<Int> x) const noexcept {
-        return real_.lo() + from_lower_face(x) * step();
+    /// The position of a lattice coordinate, in [lo, hi]; rounded once, the same on every machine.
+    [[nodiscard]] double to_real(lattice<Int> x) const noexcept {
+        return std::fma(from_lower_face(x), step(), real_.lo());
+    }
+    /// Where a wrapped coordinate was, to within rounding.
+    [[nodiscard]] double unwrap(wrapped_coordinate<lattice<Int>> at) const noexcept {
+        return real_.unwrap({to_real(at.position), at.shift});
     }
     /// The shortest displacement from b to a [m]; half a period is +L/2 to the higher coordinate, -L/2 to the lower.
     [[nodiscard]] constexpr double minimum_image(lattice<Int> a, lattice<Int> b) const noexcept {

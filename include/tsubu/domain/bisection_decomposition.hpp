@@ -5,11 +5,14 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
+#include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/detail/owners_of.hpp>
 #include <tsubu/domain/detail/reach.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
+#include <tsubu/domain/points.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
 #include <algorithm>  // std::min, std::sort
@@ -24,8 +27,8 @@
 
 namespace tsubu {
 
-/// Recursive coordinate bisection: the box is cut across its longest edge, so that both sides have the weight that their
-/// numbers of ranks ask for, and each side again.
+/// Recursive coordinate bisection: the box is cut across the direction in which the sample is longest, so that both sides
+/// have the weight that their numbers of ranks ask for, and each side again.
 ///
 ///     tsubu::bisection_decomposition<3> parts(box, ranks, sampled_positions);   // the same sample on all ranks
 ///
@@ -37,10 +40,10 @@ namespace tsubu {
 template <std::size_t D, class Scalar = double>
 class bisection_decomposition {
 public:
-    using domain_type = domain<D, Scalar>;
+    using box_type = domain<D, Scalar>;
     using scalar_type = Scalar;
-    using real_type = typename domain_type::real_type;
-    using position_type = typename domain_type::position_type;
+    using real_type = typename box_type::real_type;
+    using position_type = typename box_type::position_type;
     static constexpr std::size_t dimension = D;
 
     /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box count for nothing.
@@ -48,7 +51,7 @@ public:
     /// @param weights  of each, at least 0; empty: all 1.
     /// @throws input_error if ranks is 0, a weight is negative or not finite, the lengths differ, or a part has too few
     ///         numbers along every axis to be cut.
-    bisection_decomposition(const domain_type& whole, std::size_t ranks, std::span<const position_type> sample,
+    bisection_decomposition(const box_type& whole, std::size_t ranks, std::span<const position_type> sample,
                             std::span<const double> weights = {})
         : whole_(whole) {
         if (ranks == 0) detail::raise<input_error>("bisection_decomposition", "0 ranks", "ask for at least 1");
@@ -73,11 +76,11 @@ public:
         split(box, ranks, inside, sample, weights);
     }
 
-    [[nodiscard]] const domain_type& whole() const noexcept { return whole_; }
+    [[nodiscard]] const box_type& whole() const noexcept { return whole_; }
     [[nodiscard]] std::size_t ranks() const noexcept { return leaves_.size(); }
     /// The rank of any finite point: beyond the faces, that on whose side of each cut it is (B4). Precondition: no
     /// coordinate is NaN.
-    [[nodiscard]] std::size_t owner(const position_type& x) const noexcept {
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
         if (nodes_.empty()) return 0;
         std::uint32_t at = 0;
         for (;;) {
@@ -87,9 +90,13 @@ public:
             at = next;
         }
     }
+    /// The same for each of many points. @throws input_error if the lengths differ.
+    void owner(const points<D, const Scalar>& x, std::span<rank_t> owners) const {
+        detail::owners_of("bisection_decomposition::owner", *this, x, owners);
+    }
     /// @throws input_error if there is no such rank.
     [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
-        check_rank("bisection_decomposition::subdomain", rank);
+        detail::check_rank("bisection_decomposition::subdomain", rank, ranks());
         const auto& owned = leaves_[rank];
         auto extended = owned;
         vec<D, real_type> lo{};
@@ -98,7 +105,7 @@ public:
             const auto inside = whole_.along(k).inside();
             if (owned[k].first == inside.first) extended[k].first = interval<Scalar>::all().first;
             if (owned[k].last == inside.last) extended[k].last = interval<Scalar>::all().last;
-            const auto [from, to] = stretch_of(k, owned[k]);
+            const auto [from, to] = detail::real_stretch(whole_.along(k), owned[k]);
             lo[k] = from;
             hi[k] = to;
         }
@@ -106,14 +113,7 @@ public:
     }
     /// As brick_decomposition::neighbors.
     [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
-        check_rank("bisection_decomposition::neighbors", rank);
-        return detail::neighbors_within("bisection_decomposition::neighbors", whole_, ranks(), rank, cutoff,
-                                        [&](std::size_t other) {
-                                            std::array<detail::stretch<real_type>, D> box{};
-                                            for (std::size_t k = 0; k < D; ++k)
-                                                box[k] = stretch_of(k, leaves_[other][k]);
-                                            return box;
-                                        });
+        return detail::neighbors_within("bisection_decomposition::neighbors", *this, rank, cutoff);
     }
 
 private:
@@ -135,8 +135,8 @@ private:
             return static_cast<std::uint32_t>(leaves_.size() - 1) | leaf;
         }
         const auto below_ranks = ranks / 2;
-        const double share = static_cast<double>(below_ranks) / static_cast<double>(ranks);
-        const auto [k, begin] = choose_cut(box, ranks, share, members, sample, weights);
+        const double portion = static_cast<double>(ranks) / static_cast<double>(below_ranks);  // 1 / the lower side's share
+        const auto [k, begin] = choose_cut(box, ranks, portion, members, sample, weights);
         const auto number = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({begin, static_cast<std::uint32_t>(k), 0, 0});
         std::vector<std::size_t> below;
@@ -144,7 +144,7 @@ private:
         for (const auto i : members) (sample[i][k] < begin ? below : above).push_back(i);
         members = {};  // not needed any more while the sides are split
         auto side = box;
-        side[k].last = before(begin);
+        side[k].last = detail::before(begin);
         nodes_[number].below = split(side, below_ranks, below, sample, weights);
         side = box;
         side[k].first = begin;
@@ -156,13 +156,21 @@ private:
         std::size_t axis;
         Scalar begin;
     };
-    /// Across the longest edge that can be cut so that each side has at least as many points as ranks.
-    chosen_cut choose_cut(const region& box, std::size_t ranks, double share, std::vector<std::size_t>& members,
+    /// Across the direction in which the sample is longest, else the box is, of those that can be cut so that each side has
+    /// at least as many points as ranks.
+    chosen_cut choose_cut(const region& box, std::size_t ranks, double portion, std::vector<std::size_t>& members,
                           std::span<const position_type> sample, std::span<const double> weights) const {
         std::array<std::size_t, D> axes{};
         std::iota(axes.begin(), axes.end(), std::size_t{0});
-        std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
-            return edge_of(a, box[a]) > edge_of(b, box[b]);
+        vec<D, real_type> edge{};
+        vec<D, real_type> spread{};
+        for (std::size_t k = 0; k < D; ++k) {
+            edge[k] = edge_of(k, box[k]);
+            spread[k] = members.empty() ? 0 : edge_of(k, range_of(k, members, sample));
+        }
+        std::sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
+            if (spread[a] != spread[b]) return spread[a] > spread[b];
+            return edge[a] != edge[b] ? edge[a] > edge[b] : a < b;
         });
         for (const auto k : axes) {
             std::uint64_t across = 1;  // points with the same coordinate k; more than ranks are as good as ranks
@@ -175,15 +183,25 @@ private:
             if (below + above - 1 > steps_of(box[k])) continue;
             const interval<Scalar> begins{moved(box[k].first, static_cast<std::int64_t>(below)),
                                           moved(box[k].last, 1 - static_cast<std::int64_t>(above))};
-            return {k, cut_along(k, box[k], begins, share, members, sample, weights)};
+            return {k, cut_along(k, box[k], begins, portion, members, sample, weights)};
         }
         detail::raise<input_error>("bisection_decomposition",
                                    "a part with fewer points that the scalar tells apart than its " +
                                        std::to_string(ranks) + " ranks must be divided again",
                                    "ask for fewer ranks, or scale the unit of length");
     }
+    /// From the lowest to the highest coordinate of the samples.
+    [[nodiscard]] static interval<Scalar> range_of(std::size_t k, const std::vector<std::size_t>& members,
+                                                   std::span<const position_type> sample) {
+        interval<Scalar> range{sample[members[0]][k], sample[members[0]][k]};
+        for (const auto i : members) {
+            range.first = (std::min)(range.first, sample[i][k]);
+            range.last = (std::max)(range.last, sample[i][k]);
+        }
+        return range;
+    }
     /// The coordinate where the upper side begins, one of `begins`: that of the sample nearest to the wished share.
-    Scalar cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double share,
+    Scalar cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double portion,
                      std::vector<std::size_t>& members, std::span<const position_type> sample,
                      std::span<const double> weights) const {
         const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
@@ -193,6 +211,8 @@ private:
         });
         double total = 0;
         for (const auto i : members) total += weight(i);
+        // A quotient, not a product: no fused multiply-add can make the difference below another.
+        const double wished = total / portion;
         Scalar best = range.first;
         double least = std::numeric_limits<double>::infinity();
         double below = 0;
@@ -200,7 +220,7 @@ private:
             const auto x = sample[members[m]][k];
             // A cut here has all samples before this one below it: if they are lower, and it may be here.
             if (begins.contains(x) && (m == 0 || sample[members[m - 1]][k] < x)) {
-                const double miss = below > share * total ? below - share * total : share * total - below;
+                const double miss = below > wished ? below - wished : wished - below;
                 if (miss < least) {
                     least = miss;
                     best = x;
@@ -208,21 +228,21 @@ private:
             }
             below += weight(members[m]);
         }
-        return total > 0 && best > range.first ? best : geometric_cut(k, range, begins, share);
+        return total > 0 && best > range.first ? best : geometric_cut(k, range, begins, portion);
     }
     [[nodiscard]] Scalar geometric_cut(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins,
-                                       double share) const {
+                                       double portion) const {
         Scalar cut{};
         if constexpr (is_lattice<Scalar>) {
             using Int = decltype(cut.value);
             using Unsigned = std::make_unsigned_t<Int>;
             const auto steps = static_cast<Unsigned>(static_cast<Unsigned>(range.last.value) -
                                                      static_cast<Unsigned>(range.first.value));
-            cut = range.first + static_cast<Int>(static_cast<Unsigned>(static_cast<double>(steps) * share));
+            cut = range.first + static_cast<Int>(static_cast<Unsigned>(static_cast<double>(steps) / portion));
             static_cast<void>(k);
         } else {
-            const auto [from, to] = stretch_of(k, range);
-            cut = from + (to - from) / (1 / static_cast<Scalar>(share));
+            const auto [from, to] = detail::real_stretch(whole_.along(k), range);
+            cut = from + (to - from) / static_cast<Scalar>(portion);
         }
         if (cut < begins.first) return begins.first;
         return cut > begins.last ? begins.last : cut;
@@ -242,45 +262,17 @@ private:
         else
             return detail::at_ordinal<Scalar>(detail::ordinal(x) + steps);
     }
-    /// The length of a stretch: without a product that is added, so that fused multiply-add chooses no other axis.
+    /// The length from the first to the last coordinate: without a product that is added, so that fused multiply-add chooses no other axis.
     [[nodiscard]] real_type edge_of(std::size_t k, const interval<Scalar>& range) const noexcept {
         if constexpr (is_lattice<Scalar>) {
             using Int = decltype(range.first.value);
-            return (static_cast<double>(steps_of(range)) + 1) *
+            return static_cast<double>(steps_of(range)) *
                    (whole_.along(k).length() / (-2.0 * static_cast<double>(std::numeric_limits<Int>::min())));
         } else {
-            const auto [from, to] = stretch_of(k, range);
-            return to - from;
+            return range.last - range.first;
         }
     }
-    [[nodiscard]] static Scalar before(Scalar x) noexcept {
-        if constexpr (is_lattice<Scalar>)
-            return {static_cast<decltype(x.value)>(x.value - 1)};
-        else
-            return detail::next_below(x);
-    }
-    [[nodiscard]] static Scalar after(Scalar x) noexcept {
-        if constexpr (is_lattice<Scalar>)
-            return {static_cast<decltype(x.value)>(x.value + 1)};
-        else
-            return detail::next_above(x);
-    }
-    /// From the first coordinate to that of the next part, or to the face.
-    [[nodiscard]] detail::stretch<real_type> stretch_of(std::size_t k, const interval<Scalar>& range) const noexcept {
-        const bool at_face = range.last == whole_.along(k).inside().last;
-        if constexpr (is_lattice<Scalar>)
-            return {whole_.along(k).to_real(range.first),
-                    at_face ? whole_.real_axis(k).hi() : whole_.along(k).to_real(after(range.last))};
-        else
-            return {range.first, at_face ? whole_.along(k).hi() : after(range.last)};
-    }
-    void check_rank(const char* where, std::size_t rank) const {
-        if (rank >= ranks())
-            detail::raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks()),
-                                       "ranks count from 0");
-    }
-
-    domain_type whole_;
+    box_type whole_;
     std::vector<node> nodes_;     // the first is the root
     std::vector<region> leaves_;  // by rank
 };

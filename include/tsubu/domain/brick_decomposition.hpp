@@ -4,19 +4,23 @@
 #pragma once
 
 #include <tsubu/core/error.hpp>
+#include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/border.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/cuts.hpp>
+#include <tsubu/domain/detail/owners_of.hpp>
 #include <tsubu/domain/detail/reach.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
+#include <tsubu/domain/points.hpp>
 #include <tsubu/domain/process_grid.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
 #include <array>      // std::array
 #include <cstddef>    // std::size_t
-#include <cstdint>    // std::int64_t
+#include <cstdint>    // std::int32_t
+#include <span>       // std::span
 #include <string>     // std::to_string
 #include <utility>    // std::move
 #include <vector>     // std::vector
@@ -36,23 +40,23 @@ namespace tsubu {
 template <std::size_t D, class Scalar = double, border_policy<Scalar> Border = exact>
 class brick_decomposition {
 public:
-    using domain_type = domain<D, Scalar, Border>;
+    using box_type = domain<D, Scalar, Border>;
     using scalar_type = Scalar;
-    using real_type = typename domain_type::real_type;
-    using position_type = typename domain_type::position_type;
+    using real_type = typename box_type::real_type;
+    using position_type = typename box_type::position_type;
     static constexpr std::size_t dimension = D;
 
     /// Equal bricks, on the grid of least surface.
     /// @throws input_error if ranks is 0, or more than the scalar tells apart along some axis.
-    brick_decomposition(const domain_type& whole, std::size_t ranks)
+    brick_decomposition(const box_type& whole, std::size_t ranks)
         : brick_decomposition(whole, process_grid<D>(ranks, lengths_of(whole))) {}
     /// Equal bricks on a given grid.
-    brick_decomposition(const domain_type& whole, const std::array<std::size_t, D>& grid) : whole_(whole) {
+    brick_decomposition(const box_type& whole, const std::array<std::size_t, D>& grid) : whole_(whole) {
         cuts_.reserve(D);
         for (std::size_t k = 0; k < D; ++k) cuts_.emplace_back(whole.along(k), grid[k]);
     }
     /// Given cuts, one table per axis. @throws input_error if one of them is of another axis.
-    brick_decomposition(const domain_type& whole, std::array<cuts<Scalar>, D> where) : whole_(whole) {
+    brick_decomposition(const box_type& whole, std::array<cuts<Scalar>, D> where) : whole_(whole) {
         cuts_.reserve(D);
         for (std::size_t k = 0; k < D; ++k) {
             const auto given = where[k].whole().inside();
@@ -66,7 +70,7 @@ public:
         }
     }
 
-    [[nodiscard]] const domain_type& whole() const noexcept { return whole_; }
+    [[nodiscard]] const box_type& whole() const noexcept { return whole_; }
     [[nodiscard]] const cuts<Scalar>& along(std::size_t k) const noexcept { return cuts_[k]; }
     [[nodiscard]] std::size_t ranks() const noexcept {
         std::size_t product = 1;
@@ -82,21 +86,25 @@ public:
         }
         return at;
     }
-    [[nodiscard]] std::size_t rank_at(const std::array<std::size_t, D>& place) const noexcept {
+    [[nodiscard]] rank_t rank_at(const std::array<std::size_t, D>& place) const noexcept {
         std::size_t rank = 0;
         for (std::size_t k = 0; k < D; ++k) rank = rank * cuts_[k].parts() + place[k];
-        return rank;
+        return static_cast<rank_t>(rank);
     }
     /// The rank of any finite point: beyond the faces, that of the nearest brick along each axis (B4). Precondition: no
     /// coordinate is NaN.
-    [[nodiscard]] std::size_t owner(const position_type& x) const noexcept {
+    [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
         std::array<std::size_t, D> at{};
         for (std::size_t k = 0; k < D; ++k) at[k] = cuts_[k].part_of(x[k]);
         return rank_at(at);
     }
+    /// The same for each of many points. @throws input_error if the lengths differ.
+    void owner(const points<D, const Scalar>& x, std::span<rank_t> owners) const {
+        detail::owners_of("brick_decomposition::owner", *this, x, owners);
+    }
     /// @throws input_error if there is no such rank.
     [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
-        check_rank("brick_decomposition::subdomain", rank);
+        detail::check_rank("brick_decomposition::subdomain", rank, ranks());
         const auto at = place(rank);
         std::array<interval<Scalar>, D> owned{};
         std::array<interval<Scalar>, D> extended{};
@@ -105,7 +113,7 @@ public:
         for (std::size_t k = 0; k < D; ++k) {
             owned[k] = whole_.border().owned(cuts_[k], at[k]);
             extended[k] = whole_.border().owned_extended(cuts_[k], at[k]);
-            const auto [from, to] = stretch_of(k, at[k]);
+            const auto [from, to] = detail::real_stretch(whole_.along(k), cuts_[k].owned(at[k]));
             lo[k] = from;
             hi[k] = to;
         }
@@ -114,38 +122,16 @@ public:
     /// The ranks, and images of ranks, within a cutoff of one, itself included where an image of it is. Any cutoff: more
     /// than a brick, more than the box. @throws input_error if the cutoff is negative or not finite, or there is no such rank.
     [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
-        check_rank("brick_decomposition::neighbors", rank);
-        return detail::neighbors_within("brick_decomposition::neighbors", whole_, ranks(), rank, cutoff,
-                                        [&](std::size_t other) {
-                                            const auto at = place(other);
-                                            std::array<detail::stretch<real_type>, D> box{};
-                                            for (std::size_t k = 0; k < D; ++k) box[k] = stretch_of(k, at[k]);
-                                            return box;
-                                        });
+        return detail::neighbors_within("brick_decomposition::neighbors", *this, rank, cutoff);
     }
 
 private:
-    [[nodiscard]] static vec<D, real_type> lengths_of(const domain_type& whole) noexcept {
+    [[nodiscard]] static vec<D, real_type> lengths_of(const box_type& whole) noexcept {
         vec<D, real_type> lengths{};
         for (std::size_t k = 0; k < D; ++k) lengths[k] = whole.along(k).length();
         return lengths;
     }
-    [[nodiscard]] detail::stretch<real_type> stretch_of(std::size_t k, std::size_t part) const noexcept {
-        const auto real_begin = [&](std::size_t p) {
-            if constexpr (is_lattice<Scalar>)
-                return whole_.along(k).to_real(cuts_[k].begin(p));
-            else
-                return cuts_[k].begin(p);
-        };
-        return {real_begin(part), part + 1 < cuts_[k].parts() ? real_begin(part + 1) : whole_.real_axis(k).hi()};
-    }
-    void check_rank(const char* where, std::size_t rank) const {
-        if (rank >= ranks())
-            detail::raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks()),
-                                       "ranks count from 0");
-    }
-
-    domain_type whole_;
+    box_type whole_;
     std::vector<cuts<Scalar>> cuts_;  // [D]
 };
 static_assert(decomposition<brick_decomposition<3>> && decomposition<brick_decomposition<1, float>> &&

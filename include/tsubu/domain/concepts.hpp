@@ -1,38 +1,87 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// decomposition: how a domain is divided among ranks; and the table of its models.
+/// box and decomposition: where the particles of a simulation can be, and how that is divided among ranks; and the tables
+/// of their models.
 ///
-/// | model | subdomains | owner(x) | choose it when |
+/// | box | cell | wrap | choose it when |
+/// |---|---|---|---|
+/// | domain | itself | exact to the last bits, at every scale | faces are at right angles |
+/// | triclinic_box | fractions of the edges | a few units in the last place of the farthest corner | the box is sheared, or the unit cell of a crystal |
+/// | wedge | angle, radius, z | as triclinic_box, and an arc tangent | a drum, a mill, a rotor: body and load are the same in each sector |
+///
+/// | decomposition | subdomains | owner(x) | choose it when |
 /// |---|---|---|---|
 /// | brick_decomposition | a grid of cuts along each axis | O(1) for equal parts | particles fill the box evenly, or only one axis is uneven |
 /// | bisection_decomposition | a tree of cuts, each through a weighted middle | O(log ranks) | particles are uneven: a heap, a jet, a drum |
+/// | cell_decomposition | either of them, in the cell of a box | one to_cell more | the box is not a domain |
 #pragma once
 
+#include <tsubu/core/types.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
-#include <tsubu/domain/subdomain.hpp>
+#include <tsubu/domain/points.hpp>
 
-#include <concepts>  // std::same_as
+#include <concepts>  // std::convertible_to, std::same_as
 #include <cstddef>   // std::size_t
+#include <span>      // std::span
 #include <vector>    // std::vector
 
 namespace tsubu {
 
-/// How a domain is divided among ranks, the same on all of them.
-///  1. subdomain(0) .. subdomain(ranks() - 1) own the domain without gap or overlap: of all ranks one owns each point of it,
-///     and none any other; of owns_extended one each finite point, and none any other;
-///  2. owner(x) is the rank whose owns_extended has x, bit for bit; for a point of the domain so has its owns;
-///  3. neighbors(rank, cutoff) has (other, shift) if some point of other's subdomain, moved by shift periods, lies within
-///     the cutoff of some point of rank's; never (rank, 0); each once, in increasing order of rank and shift;
-///  4. neighbourhood is mutual: (b, s) is a neighbour of a exactly if (a, -s) is one of b.
-template <class Decomposition>
-concept decomposition = requires(const Decomposition& parts, typename Decomposition::position_type x,
-                                 typename Decomposition::real_type cutoff, std::size_t rank) {
-    { parts.ranks() } noexcept -> std::same_as<std::size_t>;
-    { parts.owner(x) } noexcept -> std::same_as<std::size_t>;
-    { parts.subdomain(rank) } -> std::same_as<subdomain<Decomposition::dimension, typename Decomposition::scalar_type>>;
-    { parts.neighbors(rank, cutoff) } -> std::same_as<std::vector<neighbor_rank<Decomposition::dimension>>>;
-    parts.whole();
+/// Where particles can be. A box has a cell, a domain of its own coordinates, in which its faces are at right angles:
+/// there it is decided what is inside, and whose it is.
+///  1. contains(x) is cell().contains(to_cell(x)), bit for bit;
+///  2. the box contains wrap(x).position along every periodic axis of the cell, for any finite x; what it contains already
+///     stays as it is, with shift 0;
+///  3. image(wrap(x).position, wrap(x).shift) is x, to within rounding;
+///  4. minimum_image(a, b) is no longer than image(a, shift) - b for any shift, to within rounding.
+template <class Box>
+concept box = requires(const Box& where, const typename Box::position_type& x,
+                       const image_shift<Box::dimension>& shift) {
+    { where.cell() } noexcept;
+    { where.from_cell(where.to_cell(x)) } noexcept -> std::same_as<typename Box::position_type>;
+    { where.contains(x) } noexcept -> std::same_as<bool>;
+    { where.wrap(x) } -> std::same_as<wrapped<Box::dimension, typename Box::scalar_type>>;
+    { where.image(x, shift) } noexcept -> std::same_as<vec<Box::dimension, typename Box::real_type>>;
+    { where.minimum_image(x, x) } noexcept -> std::same_as<vec<Box::dimension, typename Box::real_type>>;
 };
+static_assert(box<domain<1>> && box<domain<3, float>> && box<domain<2, lattice<int>>>);
+
+/// Of one rank: what is mine.
+template <class Part, class Decomposition>
+concept part_of =
+    requires(const Part& mine, const typename Decomposition::position_type& x,
+             points<Decomposition::dimension, const typename Decomposition::scalar_type> many,
+             std::span<unsigned char> mask, std::span<index_t> left) {
+        { mine.owns(x) } noexcept -> std::same_as<bool>;
+        { mine.owns_extended(x) } noexcept -> std::same_as<bool>;
+        mine.owns(many, mask);
+        mine.owns_extended(many, mask);
+        { mine.leavers(many, left) } -> std::same_as<std::size_t>;
+        mine.lo();  // in coordinates of the cell, as hi()
+        mine.hi();
+    };
+
+/// How a box is divided among ranks, the same on all of them.
+///  1. subdomain(0) .. subdomain(ranks() - 1) own the box without gap or overlap: of all ranks one owns each point of it, and
+///     none any other; of owns_extended one each finite point, and none any other;
+///  2. owner(x) is the rank whose owns_extended has x, bit for bit; for a point of the box so has its owns;
+///  3. neighbors(rank, cutoff) has (other, shift) if some point of other's subdomain, moved by shift, lies within the cutoff
+///     of some point of rank's; in a domain, if none does it has not; never (rank, 0); each once, in increasing order of
+///     rank and shift;
+///  4. neighbourhood is mutual: (b, s) is a neighbour of a exactly if (a, -s) is one of b; in a wedge of n sectors s and
+///     s + n are the same.
+/// A batch answers as the single question does.
+template <class Decomposition>
+concept decomposition = requires(const Decomposition& parts, const typename Decomposition::position_type& x,
+                                 points<Decomposition::dimension, const typename Decomposition::scalar_type> many,
+                                 std::span<rank_t> owners, typename Decomposition::real_type cutoff, std::size_t rank) {
+    { parts.whole() } noexcept -> std::convertible_to<const typename Decomposition::box_type&>;
+    { parts.ranks() } noexcept -> std::same_as<std::size_t>;
+    { parts.owner(x) } noexcept -> std::same_as<rank_t>;
+    parts.owner(many, owners);
+    { parts.subdomain(rank) } -> part_of<Decomposition>;
+    { parts.neighbors(rank, cutoff) } -> std::same_as<std::vector<neighbor_rank<Decomposition::dimension>>>;
+} && box<typename Decomposition::box_type>;
 
 }  // namespace tsubu

@@ -48,13 +48,13 @@ public:
     [[nodiscard]] constexpr Scalar begin(std::size_t part) const noexcept { return begins_[part]; }
     /// The coordinates of a part (B3): up to the one before the next part, or the last of the axis.
     [[nodiscard]] constexpr interval<Scalar> owned(std::size_t part) const noexcept {
-        return {begins_[part], part + 1 < parts() ? before(begins_[part + 1]) : whole_.inside().last};
+        return {begins_[part], part + 1 < parts() ? detail::before(begins_[part + 1]) : whole_.inside().last};
     }
     /// The same, with the first part reaching down and the last one reaching up to everything (B4, B5): exactly one part
     /// has any finite x.
     [[nodiscard]] constexpr interval<Scalar> owned_extended(std::size_t part) const noexcept {
         return {part == 0 ? interval<Scalar>::all().first : begins_[part],
-                part + 1 < parts() ? before(begins_[part + 1]) : interval<Scalar>::all().last};
+                part + 1 < parts() ? detail::before(begins_[part + 1]) : interval<Scalar>::all().last};
     }
     /// The part whose owned_extended has x: O(1) for equal parts, O(log parts) in the worst case. x is not NaN.
     [[nodiscard]] constexpr std::size_t part_of(Scalar x) const noexcept {
@@ -68,12 +68,6 @@ public:
     }
 
 private:
-    [[nodiscard]] static constexpr Scalar before(Scalar x) noexcept {
-        if constexpr (is_lattice<Scalar>)
-            return {static_cast<decltype(x.value)>(x.value - 1)};
-        else
-            return detail::next_below(x);
-    }
     // Neither a product that is added nor a sum that overflows: the same with and without fused multiply-add.
     [[nodiscard]] static constexpr Scalar uniform(const axis<Scalar>& whole, std::size_t k, std::size_t parts) noexcept {
         if constexpr (is_lattice<Scalar>) {

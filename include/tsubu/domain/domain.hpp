@@ -8,11 +8,17 @@
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/axis.hpp>
 #include <tsubu/domain/border.hpp>
+#include <tsubu/domain/detail/each_point.hpp>
+#include <tsubu/domain/points.hpp>
 
-#include <array>    // std::array
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::int64_t
-#include <utility>  // std::index_sequence
+#include <array>     // std::array
+#include <concepts>  // std::floating_point
+#include <cstddef>   // std::size_t
+#include <cstdint>   // std::int64_t
+#include <limits>    // std::numeric_limits
+#include <span>      // std::span
+#include <string>    // std::string
+#include <utility>   // std::index_sequence
 
 namespace tsubu {
 
@@ -70,7 +76,16 @@ public:
     ///         periodic.
     domain(const real_position_type& lo, const real_position_type& hi, const options& with = {})
         : domain(lo, hi, with, std::make_index_sequence<D>{}) {}
+    /// The same box for positions of a narrower type: its faces rounded inwards, so that whatever is in it is in the wider
+    /// one. @throws input_error if nothing is left.
+    template <std::floating_point Wider>
+        requires(std::floating_point<Scalar> && sizeof(Wider) > sizeof(Scalar))
+    explicit domain(const domain<D, Wider, Border>& wider) : domain(faces_of(wider, false), faces_of(wider, true), options_of(wider)) {}
 
+    /// A box whose cell is itself: see the concept box.
+    [[nodiscard]] const domain& cell() const noexcept { return *this; }
+    [[nodiscard]] static position_type to_cell(const position_type& x) noexcept { return x; }
+    [[nodiscard]] static position_type from_cell(const position_type& x) noexcept { return x; }
     [[nodiscard]] const axis<Scalar>& along(std::size_t k) const noexcept { return axes_[k]; }
     [[nodiscard]] const Border& border() const noexcept { return border_; }
 
@@ -80,8 +95,14 @@ public:
         for (std::size_t k = 0; k < D; ++k) inside &= axes_[k].contains(x[k]);
         return inside;
     }
-    /// The image of x in the box. @throws input_error if a coordinate is not finite.
+    /// mask[i] = 1 if the domain contains point i, else 0. @throws input_error if the lengths differ.
+    void contains(const points<D, const Scalar>& x, std::span<unsigned char> mask) const {
+        detail::check_answers("domain::contains", mask.size(), x.size());
+        detail::inside(insides(), x, 0, x.size(), mask.data());
+    }
+    /// The image of x in the box: axis::wrap along each axis. @throws input_error if a coordinate is not finite.
     [[nodiscard]] wrapped<D, Scalar> wrap(const position_type& x) const {
+        check_finite(x, [] { return std::string(); });
         wrapped<D, Scalar> result{};
         for (std::size_t k = 0; k < D; ++k) {
             const auto [position, shift] = axes_[k].wrap(x[k]);
@@ -90,23 +111,39 @@ public:
         }
         return result;
     }
-    /// Where a wrapped position was, to within rounding.
-    [[nodiscard]] position_type unwrap(const wrapped<D, Scalar>& at) const noexcept
-        requires(!is_lattice<Scalar>)
-    {
-        position_type x{};
-        for (std::size_t k = 0; k < D; ++k) x[k] = axes_[k].unwrap({at.position[k], at.shift[k]});
-        return x;
+    /// Wraps each of many points where it stands, and adds to shift[i] how many periods it was away. @return how many
+    /// points changed.
+    /// @throws input_error if the lengths differ, or at the first point that is not finite: the points before it are
+    ///         wrapped, and their shifts say so.
+    std::size_t wrap(const points<D, Scalar>& x, std::span<image_shift<D>> shift) const {
+        detail::check_answers("domain::wrap", shift.size(), x.size());
+        std::size_t changed = 0;
+        detail::each_outside<D, Scalar>(insides(), x, [&](std::size_t i, bool outside) {
+            if (!outside) return;
+            const auto from = x[i];
+            check_finite(from, [&] { return " of point " + std::to_string(i); });
+            const auto to = wrap(from);
+            if (to.position == from) return;  // beyond a face that is not periodic
+            x.set(i, to.position);
+            for (std::size_t k = 0; k < D; ++k) shift[i][k] += to.shift[k];
+            ++changed;
+        });
+        return changed;
+    }
+    /// Where a wrapped position was, in real units, to within rounding.
+    [[nodiscard]] real_position_type unwrap(const wrapped<D, Scalar>& at) const noexcept {
+        return image(at.position, at.shift);
+    }
+    /// x moved by so many periods of each axis: where the ghost with this shift is, in real units.
+    [[nodiscard]] real_position_type image(const position_type& x, const image_shift<D>& shift) const noexcept {
+        real_position_type y{};
+        for (std::size_t k = 0; k < D; ++k) y[k] = axes_[k].unwrap({x[k], shift[k]});
+        return y;
     }
     /// The shortest displacement from b to an image of a [m]; from a to b it is the opposite, always.
     [[nodiscard]] real_position_type minimum_image(const position_type& a, const position_type& b) const noexcept {
         real_position_type d{};
-        for (std::size_t k = 0; k < D; ++k) {
-            if constexpr (is_lattice<Scalar>)
-                d[k] = axes_[k].minimum_image(a[k], b[k]);
-            else
-                d[k] = axes_[k].minimum_image(a[k] - b[k]);
-        }
+        for (std::size_t k = 0; k < D; ++k) d[k] = axes_[k].minimum_image(a[k], b[k]);
         return d;
     }
     /// B7, B8; of equal edges that of the lowest axis.
@@ -119,29 +156,25 @@ public:
     /// Within r_c of a periodic face, on either side of it (B9): x < lo + r_c or x > hi - r_c on a periodic axis.
     /// @throws input_error if r_c is negative or NaN.
     [[nodiscard]] bool near_periodic_face(const real_position_type& x, real_type cutoff) const {
-        if (!(cutoff >= 0))
-            detail::raise<input_error>("domain::near_periodic_face", "cutoff = " + detail::shown(cutoff),
-                                       "give a length of at least 0");
-        bool near = false;
-        for (std::size_t k = 0; k < D; ++k) {
-            const auto& real = real_axis(k);
-            near = near || (axes_[k].is_periodic() && (x[k] < real.lo() + cutoff || x[k] > real.hi() - cutoff));
-        }
-        return near;
+        return is_near(between_periodic_faces(cutoff), [&](std::size_t k) { return x[k]; });
+    }
+    /// mask[i] = 1 if point i is. @throws input_error as above, and if the lengths differ.
+    void near_periodic_face(const points<D, const real_type>& x, real_type cutoff, std::span<unsigned char> mask) const {
+        detail::check_answers("domain::near_periodic_face", mask.size(), x.size());
+        x.visit([&](auto at) {
+            detail::each_point(x.size(), mask.data(), [at, between = between_periodic_faces(cutoff)](std::size_t i) {
+                return static_cast<unsigned char>(is_near(between, [&](std::size_t k) { return at(i, k); }));
+            });
+        });
     }
     /// The axis in real units; for floating point the axis itself.
     [[nodiscard]] const axis<real_type>& real_axis(std::size_t k) const noexcept {
-        if constexpr (is_lattice<Scalar>)
-            return axes_[k].real();
-        else
-            return axes_[k];
+        return axes_[k].real();
     }
 
-    /// Lattice coordinates of a position, and the periods that it was away; rounds to the nearest.
+    /// The coordinates of a position, and the periods that it was away: on a lattice the nearest, for floating point wrap.
     /// @throws input_error if a coordinate is not finite.
-    [[nodiscard]] wrapped<D, Scalar> from_real(const real_position_type& x) const
-        requires is_lattice<Scalar>
-    {
+    [[nodiscard]] wrapped<D, Scalar> from_real(const real_position_type& x) const {
         wrapped<D, Scalar> result{};
         for (std::size_t k = 0; k < D; ++k) {
             const auto [position, shift] = axes_[k].from_real(x[k]);
@@ -151,19 +184,80 @@ public:
         return result;
     }
     [[nodiscard]] real_position_type to_real(const position_type& x) const noexcept {
-        if constexpr (is_lattice<Scalar>) {
-            real_position_type real{};
-            for (std::size_t k = 0; k < D; ++k) real[k] = axes_[k].to_real(x[k]);
-            return real;
-        } else {
-            return x;
-        }
+        real_position_type real{};
+        for (std::size_t k = 0; k < D; ++k) real[k] = axes_[k].to_real(x[k]);
+        return real;
     }
 
 private:
     template <std::size_t... K>
     domain(const real_position_type& lo, const real_position_type& hi, const options& with, std::index_sequence<K...>)
-        : axes_{axis<Scalar>(lo[K], hi[K], with.periodic[K])...}, border_(with.border) {}
+        : axes_{axis_of(K, lo[K], hi[K], with.periodic[K])...}, border_(with.border) {}
+    static axis<Scalar> axis_of(std::size_t k, real_type lo, real_type hi, bool periodic) {
+        try {
+            return axis<Scalar>(lo, hi, periodic);
+        } catch (const input_error& wrong) {
+            throw input_error(wrong.what() + (" (axis " + std::to_string(k) + " of the domain)"));
+        }
+    }
+
+    template <class Wider>
+    static position_type faces_of(const domain<D, Wider, Border>& wider, bool upper) noexcept {
+        position_type faces{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const Wider face = upper ? wider.along(k).hi() : wider.along(k).lo();
+            const auto nearest = static_cast<Scalar>(face);
+            faces[k] = upper ? (nearest > face ? detail::before(nearest) : nearest)
+                             : (nearest < face ? detail::after(nearest) : nearest);
+        }
+        return faces;
+    }
+    template <class Wider>
+    static options options_of(const domain<D, Wider, Border>& wider) noexcept {
+        options with{{}, wider.border()};
+        for (std::size_t k = 0; k < D; ++k) with.periodic[k] = wider.along(k).is_periodic();
+        return with;
+    }
+    [[nodiscard]] std::array<interval<Scalar>, D> insides() const noexcept {
+        std::array<interval<Scalar>, D> box{};
+        for (std::size_t k = 0; k < D; ++k) box[k] = axes_[k].inside();
+        return box;
+    }
+    template <class Whose>
+    static void check_finite(const position_type& x, Whose&& whose) {
+        if constexpr (!is_lattice<Scalar>)
+            for (std::size_t k = 0; k < D; ++k)
+                if (!detail::is_finite(x[k]))
+                    detail::raise<input_error>("domain::wrap",
+                                               "the coordinate " + detail::shown(x[k]) + " on axis " +
+                                                   std::to_string(k) + whose() + " is not finite",
+                                               "find the particle with this position: it was lost before");
+    }
+    /// Of each axis what is not near a periodic face: everything, if it is not periodic; nothing, if the cutoff is large.
+    [[nodiscard]] std::array<interval<real_type>, D> between_periodic_faces(real_type cutoff) const {
+        if (!(cutoff >= 0))
+            detail::raise<input_error>("domain::near_periodic_face", "cutoff = " + detail::shown(cutoff),
+                                       "give a length of at least 0");
+        constexpr auto infinity = std::numeric_limits<real_type>::infinity();
+        std::array<interval<real_type>, D> between{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto& real = real_axis(k);
+            between[k] = real.is_periodic() ? interval<real_type>{real.lo() + cutoff, real.hi() - cutoff}
+                                            : interval<real_type>{-infinity, infinity};
+        }
+        return between;
+    }
+    template <class Coordinate>
+    [[nodiscard, gnu::always_inline]] static bool is_near(const std::array<interval<real_type>, D>& between,
+                                                          Coordinate x) noexcept {
+        bool near = false;
+        for (std::size_t k = 0; k < D; ++k) {
+            const bool below = x(k) < between[k].first;
+            const bool above = x(k) > between[k].last;
+            near |= below | above;
+        }
+        return near;
+    }
 
     std::array<axis<Scalar>, D> axes_;
     [[no_unique_address]] Border border_;

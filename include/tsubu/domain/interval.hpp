@@ -3,6 +3,8 @@
 /// interval: the coordinates from a first to a last one, and the neighbours of a floating-point number.
 #pragma once
 
+#include <tsubu/domain/lattice.hpp>
+
 #include <bit>          // std::bit_cast
 #include <concepts>     // std::floating_point
 #include <cstdint>      // std::int64_t
@@ -52,6 +54,22 @@ template <std::floating_point Scalar>
 template <std::floating_point Scalar>
 [[nodiscard]] constexpr Scalar next_below(Scalar x) noexcept {
     return -next_above(-x);
+}
+
+/// The coordinates next to x; nothing lies between. Past the ends of a lattice lies its other end.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar after(Scalar x) noexcept {
+    if constexpr (is_lattice<Scalar>)
+        return x + decltype(x.value){1};
+    else
+        return next_above(x);
+}
+template <class Scalar>
+[[nodiscard]] constexpr Scalar before(Scalar x) noexcept {
+    if constexpr (is_lattice<Scalar>)
+        return x + decltype(x.value){-1};
+    else
+        return next_below(x);
 }
 
 /// The place of a finite number among all of its type: increasing, 1 from a number to the next.

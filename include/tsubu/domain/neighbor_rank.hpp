@@ -3,6 +3,7 @@
 /// neighbor_rank: a rank whose subdomain, or an image of it, is near.
 #pragma once
 
+#include <tsubu/core/types.hpp>
 #include <tsubu/domain/domain.hpp>
 
 #include <cstddef>  // std::size_t
@@ -13,7 +14,7 @@ namespace tsubu {
 /// this shift.
 template <std::size_t D>
 struct neighbor_rank {
-    std::size_t rank;
+    rank_t rank;
     image_shift<D> shift;
 
     friend constexpr auto operator<=>(const neighbor_rank&, const neighbor_rank&) noexcept = default;

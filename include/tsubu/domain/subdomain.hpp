@@ -7,22 +7,19 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
-#include <tsubu/domain/detail/inside.hpp>
+#include <tsubu/domain/detail/each_point.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/interval.hpp>
+#include <tsubu/domain/points.hpp>
 
-#include <algorithm>  // std::min
 #include <array>      // std::array
 #include <cmath>      // std::abs
 #include <cstddef>    // std::size_t
+#include <limits>     // std::numeric_limits
 #include <span>       // std::span
 #include <string>     // std::to_string
 
 namespace tsubu {
-
-/// Positions as one span per axis [D], all of the same length.
-template <std::size_t D, class Scalar>
-using position_columns = std::array<std::span<const Scalar>, D>;
 
 /// Whose is x: mine?
 ///
@@ -31,14 +28,15 @@ using position_columns = std::array<std::span<const Scalar>, D>;
 ///     const auto count = mine.leavers(positions, left);   // left[0 .. count) have to go
 ///
 /// A value: it does not refer to the decomposition that made it. Its faces are those of its intervals of ownership, in
-/// real units.
+/// real units. Every predicate takes one point, or many (see points), by the same arithmetic.
 template <std::size_t D, class Scalar = double>
 class subdomain {
 public:
     using position_type = vec<D, Scalar>;
     using real_type = typename axis<Scalar>::real_type;
     using real_position_type = vec<D, real_type>;
-    using columns = position_columns<D, Scalar>;
+    using points_type = points<D, const Scalar>;
+    using real_points_type = points<D, const real_type>;
 
     /// Made by a decomposition.
     subdomain(const std::array<interval<Scalar>, D>& owned, const std::array<interval<Scalar>, D>& owned_extended,
@@ -54,51 +52,51 @@ public:
     [[nodiscard]] bool owns_extended(const position_type& x) const noexcept { return in(extended_, x); }
 
     /// mask[i] = 1 if point i is owned, else 0. @throws input_error if the lengths differ.
-    void owns(const columns& x, std::span<unsigned char> mask) const {
-        detail::inside(owned_, points_of("owns", x, mask.size()), mask.size(), mask.data());
+    void owns(const points_type& x, std::span<unsigned char> mask) const {
+        detail::check_answers("subdomain::owns", mask.size(), x.size());
+        detail::inside(owned_, x, 0, x.size(), mask.data());
     }
-    void owns(std::span<const position_type> x, std::span<unsigned char> mask) const {
-        detail::inside(owned_, points_of("owns", x, mask.size()), mask.size(), mask.data());
-    }
-    void owns_extended(const columns& x, std::span<unsigned char> mask) const {
-        detail::inside(extended_, points_of("owns_extended", x, mask.size()), mask.size(), mask.data());
-    }
-    void owns_extended(std::span<const position_type> x, std::span<unsigned char> mask) const {
-        detail::inside(extended_, points_of("owns_extended", x, mask.size()), mask.size(), mask.data());
+    void owns_extended(const points_type& x, std::span<unsigned char> mask) const {
+        detail::check_answers("subdomain::owns_extended", mask.size(), x.size());
+        detail::inside(extended_, x, 0, x.size(), mask.data());
     }
     /// Writes the indices of the points that are not owned to the front of `left`, in increasing order. @return how many.
-    /// @throws input_error if left is shorter than the points are many, or the columns differ in length.
-    std::size_t leavers(const columns& x, std::span<index_t> left) const {
-        return detail::outside(owned_, points_of("leavers", x, x[0].size(), left.size()), x[0].size(), left.data());
-    }
-    std::size_t leavers(std::span<const position_type> x, std::span<index_t> left) const {
-        return detail::outside(owned_, points_of("leavers", x, x.size(), left.size()), x.size(), left.data());
+    /// @throws input_error if left is not as long as the points are many.
+    std::size_t leavers(const points_type& x, std::span<index_t> left) const {
+        detail::check_answers("subdomain::leavers", left.size(), x.size());
+        std::size_t found = 0;
+        detail::each_outside(owned_, x, [&](std::size_t i, bool outside) {
+            left[found] = static_cast<index_t>(i);  // no branch: the next leaver writes over it
+            found += outside ? 1U : 0U;
+        });
+        return found;
     }
 
     /// At least d[k] away from both faces of each axis k, inside (B6 as decided). @throws input_error if a d is negative or
     /// NaN.
     [[nodiscard]] bool clear_of_borders(const real_position_type& x, const real_position_type& d) const {
-        bool clear = true;
-        for (std::size_t k = 0; k < D; ++k) {
-            if (!(d[k] >= 0))
-                detail::raise<input_error>("subdomain::clear_of_borders",
-                                           "the distance " + detail::shown(d[k]) + " on axis " + std::to_string(k),
-                                           "give a length of at least 0");
-            clear = clear && x[k] >= lo_[k] + d[k] && x[k] <= hi_[k] - d[k];
-        }
-        return clear;
+        return in(clear(d), x);
     }
     [[nodiscard]] bool clear_of_borders(const real_position_type& x, real_type d) const {
-        real_position_type each{};
-        each.fill(d);
-        return clear_of_borders(x, each);
+        return in(clear(filled(d)), x);
+    }
+    /// mask[i] = 1 if point i is. @throws input_error as above, and if the lengths differ.
+    void clear_of_borders(const real_points_type& x, real_type d, std::span<unsigned char> mask) const {
+        detail::check_answers("subdomain::clear_of_borders", mask.size(), x.size());
+        detail::inside(clear(filled(d)), x, 0, x.size(), mask.data());
     }
     /// The distance to the plane of the nearest face, from either side (B6 as printed: the smallest of its deltas) [m].
     [[nodiscard]] real_type face_distance(const real_position_type& x) const noexcept {
-        auto least = std::abs(x[0] - lo_[0]);
-        for (std::size_t k = 0; k < D; ++k)
-            least = (std::min)({least, std::abs(x[k] - lo_[k]), std::abs(x[k] - hi_[k])});
-        return least;
+        return distance([&](std::size_t k) { return x[k]; });
+    }
+    /// The same for each of many points. @throws input_error if the lengths differ.
+    void face_distance(const real_points_type& x, std::span<real_type> distances) const {
+        detail::check_answers("subdomain::face_distance", distances.size(), x.size());
+        x.visit([&](auto at) {
+            detail::each_point(x.size(), distances.data(), [at, *this](std::size_t i) {
+                return distance([&](std::size_t k) { return at(i, k); });
+            });
+        });
     }
     /// B7, B8; of equal edges that of the lowest axis.
     [[nodiscard]] shortest_extent<real_type> min_extent() const noexcept {
@@ -109,34 +107,38 @@ public:
     }
 
 private:
-    static bool in(const std::array<interval<Scalar>, D>& box, const position_type& x) noexcept {
+    template <class Coordinate>
+    static bool in(const std::array<interval<Coordinate>, D>& box, const vec<D, Coordinate>& x) noexcept {
         bool inside = true;
         for (std::size_t k = 0; k < D; ++k) inside &= box[k].contains(x[k]);
         return inside;
     }
-    static void check(const char* member, std::size_t length, std::size_t expected) {
-        if (length == expected) return;
-        const auto where = std::string("subdomain::") + member;
-        detail::raise<input_error>(where.c_str(),
-                                   std::to_string(length) + " coordinates for " + std::to_string(expected) + " points",
-                                   "give spans of equal length");
+    static real_position_type filled(real_type d) noexcept {
+        real_position_type each{};
+        each.fill(d);
+        return each;
     }
-    static auto points_of(const char* member, const columns& x, std::size_t count) {
-        detail::column_points<D, Scalar> points{};
+    [[nodiscard]] std::array<interval<real_type>, D> clear(const real_position_type& d) const {
+        std::array<interval<real_type>, D> box{};
         for (std::size_t k = 0; k < D; ++k) {
-            check(member, x[k].size(), count);
-            points.column[k] = x[k].data();
+            if (!(d[k] >= 0))
+                detail::raise<input_error>("subdomain::clear_of_borders",
+                                           "the distance " + detail::shown(d[k]) + " on axis " + std::to_string(k),
+                                           "give a length of at least 0");
+            box[k] = {lo_[k] + d[k], hi_[k] - d[k]};
         }
-        return points;
+        return box;
     }
-    static auto points_of(const char* member, std::span<const position_type> x, std::size_t count) {
-        check(member, x.size(), count);
-        return detail::row_points<D, Scalar>{x.data()};
-    }
-    template <class Points>
-    static auto points_of(const char* member, const Points& x, std::size_t count, std::size_t room) {
-        if (room < count) check(member, room, count);
-        return points_of(member, x, count);
+    template <class Coordinate>
+    [[nodiscard, gnu::always_inline]] real_type distance(Coordinate x) const noexcept {
+        auto least = std::numeric_limits<real_type>::infinity();
+        for (std::size_t k = 0; k < D; ++k) {
+            const real_type below = std::abs(x(k) - lo_[k]);
+            const real_type above = std::abs(x(k) - hi_[k]);
+            least = below < least ? below : least;
+            least = above < least ? above : least;
+        }
+        return least;
     }
 
     std::array<interval<Scalar>, D> owned_;

@@ -7,6 +7,7 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/detail/reduced_basis.hpp>
+#include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/interval.hpp>
 
@@ -54,7 +55,9 @@ class triclinic_box {
 
 public:
     using scalar_type = Scalar;
+    using real_type = Scalar;
     using position_type = vec<D, Scalar>;
+    using real_position_type = position_type;
     using cell_type = domain<D, Scalar>;
     using tilts = vec<D*(D - 1) / 2, Scalar>;  ///< {xy}, or {xy, xz, yz}: the order of LAMMPS
     static constexpr std::size_t dimension = D;
@@ -147,7 +150,8 @@ public:
         return periods_.shortest(d);
     }
     /// How far a length reaches in the fraction of each edge: cutoff / (height of the box over the face that the edge
-    /// ends at). @throws input_error if the cutoff is negative or not finite.
+    /// ends at), and a few units in the last place for the rounding of to_cell. @throws input_error if the cutoff is negative
+    /// or not finite.
     [[nodiscard]] position_type cell_reach(Scalar cutoff) const {
         if (!(cutoff >= 0) || !detail::is_finite(cutoff))
             detail::raise<input_error>("triclinic_box::cell_reach", "the cutoff " + detail::shown(cutoff),
@@ -164,9 +168,15 @@ public:
             }
             Scalar length = gradient[0];
             for (std::size_t j = 1; j < D; ++j) length = std::hypot(length, gradient[j]);
-            reach[k] = cutoff / edges_[k][k] * length;
+            reach[k] = cutoff / edges_[k][k] * length * (1 + 16 * epsilon) +
+                       8 * epsilon * farthest(lo_, edges_, k) / edges_[k][k];
         }
         return reach;
+    }
+    /// The same between any two parts of the cell.
+    template <class Part>
+    [[nodiscard]] position_type cell_reach(Scalar cutoff, const Part&, const Part&) const {
+        return cell_reach(cutoff);
     }
 
 private:
@@ -273,5 +283,7 @@ private:
     cell_type cell_;
     detail::reduced_basis<D, Scalar> periods_;
 };
+
+static_assert(box<triclinic_box<2>> && box<triclinic_box<3, float>>);
 
 }  // namespace tsubu

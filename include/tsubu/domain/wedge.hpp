@@ -6,10 +6,12 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/interval.hpp>
 
-#include <cmath>     // std::abs, std::atan2, std::cos, std::floor, std::hypot, std::nearbyint, std::sin
+#include <algorithm>  // std::max
+#include <cmath>     // std::abs, std::asin, std::atan2, std::cos, std::floor, std::hypot, std::nearbyint, std::sin
 #include <concepts>  // std::convertible_to, std::floating_point
 #include <cstddef>   // std::size_t
 #include <cstdint>   // std::int64_t
@@ -53,7 +55,9 @@ template <std::floating_point Scalar = double>
 class wedge {
 public:
     using scalar_type = Scalar;
+    using real_type = Scalar;
     using position_type = vec<3, Scalar>;
+    using real_position_type = position_type;
     using cell_type = domain<3, Scalar>;
     static constexpr std::size_t dimension = 3;
 
@@ -159,6 +163,24 @@ public:
         return d;
     }
 
+    /// The same image by the fewest sectors: more than -n/2 and at most n/2.
+    [[nodiscard]] image_shift<3> same_image(const image_shift<3>& shift) const noexcept {
+        const auto n = static_cast<std::int64_t>(sectors());
+        auto on = shift[0] % n;
+        if (on < 0) on += n;
+        return {2 * on > n ? on - n : on, shift[1], shift[2]};
+    }
+    /// How far a length reaches between two parts of the cell, along the angle, r and z. At a distance r from the axis, and
+    /// an angle t away, a point is at least r sin t from everything there, and beyond a quarter turn at least r.
+    template <class Part>
+    [[nodiscard]] position_type cell_reach(Scalar cutoff, const Part& a, const Part& b) const noexcept {
+        const Scalar inner = (std::max)(a.lo()[1], b.lo()[1]) * (1 - 16 * epsilon);
+        const Scalar sectors_on = cutoff < inner ? std::asin(cutoff / inner) / angle_ * (1 + 16 * epsilon) + 8 * epsilon
+                                                 : static_cast<Scalar>(sectors() / 2 + 1);
+        const Scalar rounding = 8 * epsilon * (std::abs(axis_at_[0]) + std::abs(axis_at_[1]) + cell_.along(1).hi());
+        return {sectors_on + rounding / (std::max)(inner, rounding), cutoff + rounding, cutoff};
+    }
+
 private:
     static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
 
@@ -211,5 +233,7 @@ private:
     Scalar angle_;             // of a sector [rad]
     std::vector<turn> turns_;  // [n]: by 0 .. n - 1 sectors
 };
+
+static_assert(box<wedge<>> && box<wedge<float>>);
 
 }  // namespace tsubu

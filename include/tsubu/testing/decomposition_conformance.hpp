@@ -16,14 +16,16 @@
 
 #include <algorithm>    // std::sort
 #include <array>        // std::array
-#include <cmath>        // std::nextafter, std::sqrt
+#include <cmath>        // std::hypot, std::nextafter, std::sqrt
+#include <concepts>     // std::same_as
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t
 #include <limits>       // std::numeric_limits
 #include <numeric>      // std::midpoint
 #include <string>       // std::string
 #include <string_view>  // std::string_view
-#include <type_traits>  // std::remove_reference_t
+#include <type_traits>  // std::remove_cvref_t, std::remove_reference_t
+#include <utility>      // std::declval
 #include <vector>       // std::vector
 
 namespace tsubu::testing {
@@ -37,6 +39,7 @@ struct decomposition_law {
     static constexpr const char* not_finite = "law 1: no rank owns what is not finite";
     static constexpr const char* owner = "law 2: owner is the rank whose owns_extended has the point";
     static constexpr const char* owner_inside = "law 2: of a point of the domain, owner is the rank that owns it";
+    static constexpr const char* batch = "law 2: a batch answers as the single question does";
     static constexpr const char* complete = "law 3: who lies within the cutoff is a neighbour";
     static constexpr const char* near = "law 3: who lies beyond the cutoff, rounding aside, is no neighbour";
     static constexpr const char* increasing = "law 3: neighbours increase by rank and shift, each named once";
@@ -106,6 +109,8 @@ class decomposition_examiner {
     using position = typename Decomposition::position_type;
     using law = testing::decomposition_law;
     using neighbors_of_rank = std::vector<neighbor_rank<D>>;
+    using box_type = typename Decomposition::box_type;
+    static constexpr bool is_domain = std::same_as<box_type, std::remove_cvref_t<decltype(std::declval<box_type>().cell())>>;
 
 public:
     decomposition_examiner(const Decomposition& parts, std::uint64_t seed, Check& check)
@@ -122,8 +127,7 @@ public:
                 const auto lo = subdomains_[rank].lo()[k];
                 const auto hi = subdomains_[rank].hi()[k];
                 middle[k] = at_real(k, std::midpoint(lo, hi));
-                along[k] = {at_real(k, lo), at_real(k, hi), parts_.whole().along(k).inside().first,
-                            parts_.whole().along(k).inside().last};
+                along[k] = {at_real(k, lo), at_real(k, hi), cell().along(k).inside().first, cell().along(k).inside().last};
             }
             for (std::size_t k = 0; k < D; ++k) {
                 // Where owner changes, whatever the subdomain says about its faces.
@@ -134,32 +138,30 @@ public:
                 std::sort(along[k].begin(), along[k].end());
                 along[k].erase(std::unique(along[k].begin(), along[k].end()), along[k].end());
             }
-            position x{};
-            examine_product(along, x, 0);
+            position at{};
+            asked_.clear();
+            examine_product(along, at, 0);
+            examine_batch(rank, rank + 1);
         }
     }
     /// As many points inside, beyond faces and far away.
     void examine_random(std::size_t points) {
-        const auto anywhere = [&](std::size_t) { return any_coordinate<scalar>(random_); };
-        const auto inside = [&](std::size_t k) {
-            const auto [first, last] = parts_.whole().along(k).inside();
-            return coordinate_between(first, last, random_);
-        };
+        asked_.clear();
         for (std::size_t i = 0; i < points; ++i) {
-            position x{};
-            for (std::size_t k = 0; k < D; ++k) x[k] = inside(k);
+            position x = random_point([&](std::size_t k) { return cell().along(k).inside(); });
             examine(x);
-            x[random_.below(D)] = anywhere(0);
+            x[random_.below(D)] = any_coordinate<scalar>(random_);
             examine(x);
-            for (std::size_t k = 0; k < D; ++k) x[k] = anywhere(k);
+            for (std::size_t k = 0; k < D; ++k) x[k] = any_coordinate<scalar>(random_);
             examine(x);
         }
+        examine_batch(0, parts_.ranks());
         if constexpr (!is_lattice<scalar>) {
             constexpr auto infinity = std::numeric_limits<scalar>::infinity();
             for (std::size_t k = 0; k < D; ++k)
                 for (const auto bad : {std::numeric_limits<scalar>::quiet_NaN(), infinity, -infinity}) {
-                    position x{};
-                    for (std::size_t j = 0; j < D; ++j) x[j] = j == k ? bad : inside(j);
+                    position x = random_point([&](std::size_t j) { return cell().along(j).inside(); });
+                    x[k] = bad;
                     for (const auto& mine : subdomains_)
                         expect(!mine.owns(x) && !mine.owns_extended(x), law::not_finite, [&] { return shown_point(x); });
                 }
@@ -167,9 +169,10 @@ public:
     }
     /// No, small, equal, and large cutoffs.
     void examine_neighbors() {
-        const auto box = parts_.whole().min_extent().width;
+        const auto box = parts_.whole().cell().min_extent().width;
         auto thinnest = box;
-        for (const auto& mine : subdomains_) thinnest = (std::min)(thinnest, mine.min_extent().width);
+        for (const auto& mine : subdomains_)
+            for (std::size_t k = 0; k < D; ++k) thinnest = (std::min)(thinnest, mine.hi()[k] - mine.lo()[k]);
         for (const auto cutoff : {real{0}, thinnest / 3, beside(thinnest, false), thinnest, beside(thinnest, true),
                                   thinnest * real{2.5}, box / 2, box / 2 + box / 16, 2 * box + box / 4}) {
             // Large ones give every rank as neighbour of every other, many times: some ranks stand for all.
@@ -178,7 +181,19 @@ public:
     }
 
 private:
+    [[nodiscard]] const auto& cell() const { return parts_.whole().cell(); }
+    /// A point of the box whose coordinates of the cell are in given intervals.
+    template <class IntervalOf>
+    [[nodiscard]] position random_point(IntervalOf&& interval_of) {
+        position at{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto [first, last] = interval_of(k);
+            at[k] = coordinate_between(first, last, random_);
+        }
+        return parts_.whole().from_cell(at);
+    }
     void examine(const position& x) {
+        asked_.push_back(x);
         std::size_t owners = 0;
         std::size_t extended = 0;
         for (const auto& mine : subdomains_) {
@@ -196,30 +211,78 @@ private:
         expect(owner < parts_.ranks() && subdomains_[owner].owns_extended(x), law::owner, found);
         expect(!inside || (owner < parts_.ranks() && subdomains_[owner].owns(x)), law::owner_inside, found);
     }
-    void examine_product(const std::array<std::vector<scalar>, D>& along, position& x, std::size_t k) {
-        if (k == D) return examine(x);
+    /// All points that were asked one by one, at once: the answers of the ranks from `first` to before `end`, and of owner,
+    /// must be the same.
+    void examine_batch(std::size_t first, std::size_t end) {
+        const auto count = asked_.size();
+        std::array<std::vector<scalar>, D> column;
+        typename points<D, const scalar>::columns columns{};
+        for (std::size_t k = 0; k < D; ++k) {
+            for (const auto& x : asked_) column[k].push_back(x[k]);
+            columns[k] = column[k];
+        }
+        const auto same = [&](bool kept, std::size_t i) {
+            expect(kept, law::batch, [&] { return shown_point(asked_[i]); });
+        };
+        std::vector<unsigned char> owned(count);
+        std::vector<unsigned char> extended(count);
+        std::vector<index_t> left(count);
+        std::vector<rank_t> owners(count);
+        for (auto rank = first; rank < end; ++rank) {
+            const auto& mine = subdomains_[rank];
+            mine.owns(columns, owned);
+            mine.owns_extended(columns, extended);
+            const auto leavers = mine.leavers(asked_, left);
+            std::size_t leaver = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool is_mine = mine.owns(asked_[i]);
+                const bool has_left = leaver < leavers && left[leaver] == static_cast<index_t>(i);
+                same((owned[i] != 0) == is_mine && (extended[i] != 0) == mine.owns_extended(asked_[i]) &&
+                         has_left == !is_mine,
+                     i);
+                leaver += has_left ? 1U : 0U;
+            }
+        }
+        parts_.owner(asked_, owners);
+        for (std::size_t i = 0; i < count; ++i) same(owners[i] == parts_.owner(asked_[i]), i);
+    }
+    void examine_product(const std::array<std::vector<scalar>, D>& along, position& at, std::size_t k) {
+        if (k == D) {
+            auto x = parts_.whole().from_cell(at);
+            examine(x);
+            if constexpr (!is_domain)  // from_cell rounds: ask around it
+                for (std::size_t j = 0; j < D; ++j)
+                    for (const bool up : {false, true}) {
+                        const auto middle = x[j];
+                        x[j] = beside(middle, up);
+                        examine(x);
+                        x[j] = middle;
+                    }
+            return;
+        }
         for (const auto coordinate : along[k]) {
-            x[k] = coordinate;
-            examine_product(along, x, k + 1);
+            at[k] = coordinate;
+            examine_product(along, at, k + 1);
         }
     }
     [[nodiscard]] scalar at_real(std::size_t k, real x) const {
         if constexpr (is_lattice<scalar>)
-            return parts_.whole().along(k).from_real(x).position;
+            return cell().along(k).from_real(x).position;
         else
-            return x;
+            return static_cast<void>(k), x;
     }
-    [[nodiscard]] scalar last_of_same_owner(position x, std::size_t k, bool up) const {
-        const auto owner = parts_.owner(x);
-        const auto all = interval<scalar>::all();
-        auto same = place_of(x[k]);
-        x[k] = up ? all.last : all.first;
-        if (parts_.owner(x) == owner) return x[k];
-        auto other = place_of(x[k]);
+    [[nodiscard]] scalar last_of_same_owner(position at, std::size_t k, bool up) const {
+        const auto owner_at = [&] { return parts_.owner(parts_.whole().from_cell(at)); };
+        const auto owner = owner_at();
+        const auto all = is_domain ? interval<scalar>::all() : cell().along(k).inside();
+        auto same = place_of(at[k]);
+        at[k] = up ? all.last : all.first;
+        if (owner_at() == owner) return at[k];
+        auto other = place_of(at[k]);
         for (auto middle = std::midpoint(same, other); middle != same && middle != other;
              middle = std::midpoint(same, other)) {
-            x[k] = at_place<scalar>(middle);
-            (parts_.owner(x) == owner ? same : other) = middle;
+            at[k] = at_place<scalar>(middle);
+            (owner_at() == owner ? same : other) = middle;
         }
         return at_place<scalar>(same);
     }
@@ -242,16 +305,52 @@ private:
                 expect(!itself, law::not_itself, at);
                 image_shift<D> back{};
                 for (std::size_t k = 0; k < D; ++k) back[k] = -shift[k];
-                expect(other < ranks && has(known[other], {rank, back}), law::mutual,
+                expect(other < ranks && has(known[other], {static_cast<rank_t>(rank), same_image(back)}), law::mutual,
                        [&, other = other] { return at() + ", neighbour " + shown(other); });
             }
             auto sorted = found;
             std::sort(sorted.begin(), sorted.end());
-            for (std::size_t other = 0; other < ranks; ++other) {
-                image_shift<D> shift{};
-                compare_images(sorted, rank, other, cutoff, shift, 0);
-            }
+            if constexpr (!is_lattice<scalar>)
+                if (cutoff > 0) look_around(sorted, rank, cutoff);
+            if constexpr (is_domain)
+                for (std::size_t other = 0; other < ranks; ++other) {
+                    image_shift<D> shift{};
+                    compare_images(sorted, rank, other, cutoff, shift, 0);
+                }
         }
+    }
+    /// Steps from points of a rank as far as the cutoff in any direction: who is met there must be named.
+    void look_around(const neighbors_of_rank& found, std::size_t rank, real cutoff) {
+        for (int step = 0; step < 50; ++step) {
+            auto x = random_point([&](std::size_t k) {
+                return interval<scalar>{subdomains_[rank].lo()[k], subdomains_[rank].hi()[k]};
+            });
+            if (!subdomains_[rank].owns(x)) continue;  // upper faces are not
+            position direction{};
+            real size = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                direction[k] = static_cast<real>(2 * random_.unit() - 1);
+                size = std::hypot(size, direction[k]);
+            }
+            const auto length = cutoff * static_cast<real>(random_.below(2) == 0 ? random_.unit() : 0.999);
+            for (std::size_t k = 0; k < D; ++k) x[k] += direction[k] / size * length;
+            const auto [y, shift] = parts_.whole().wrap(x);
+            if (!parts_.whole().contains(y)) continue;
+            std::size_t other = 0;
+            while (other < parts_.ranks() && !subdomains_[other].owns(y)) ++other;
+            if (other == parts_.ranks()) continue;  // law 1 is broken, and was told
+            const auto image = same_image(shift);
+            const bool itself = other == rank && image == image_shift<D>{};
+            expect(itself || std::binary_search(found.begin(), found.end(), neighbor_rank<D>{static_cast<rank_t>(other), image}), law::complete,
+                   [&, y = y] { return "rank " + shown(rank) + ", cutoff " + shown(cutoff) + ", " + shown_point(y); });
+        }
+    }
+    /// The one name of an image that has several: in a wedge.
+    [[nodiscard]] image_shift<D> same_image(const image_shift<D>& shift) const {
+        if constexpr (requires { parts_.whole().same_image(shift); })
+            return parts_.whole().same_image(shift);
+        else
+            return shift;
     }
     [[nodiscard]] static bool has(const neighbors_of_rank& found, const neighbor_rank<D>& wanted) {
         return std::find(found.begin(), found.end(), wanted) != found.end();
@@ -289,7 +388,7 @@ private:
             for (const auto n : shift) text += ' ' + shown(n);
             return text + ", cutoff " + shown(cutoff) + ", distance " + shown(static_cast<double>(distance)) + " of it";
         };
-        const bool listed = std::binary_search(found.begin(), found.end(), neighbor_rank<D>{other, shift});
+        const bool listed = std::binary_search(found.begin(), found.end(), neighbor_rank<D>{static_cast<rank_t>(other), shift});
         expect(listed || distance + rounding > wanted, law::complete, what);
         expect(!listed || distance <= wanted + rounding, law::near, what);
     }
@@ -309,7 +408,8 @@ private:
     std::uint64_t seed_;
     random_stream random_;
     Check& check_;
-    std::vector<subdomain<D, scalar>> subdomains_;
+    std::vector<position> asked_;  // since the last batch
+    std::vector<std::remove_cvref_t<decltype(std::declval<Decomposition>().subdomain(0))>> subdomains_;
 };
 
 }  // namespace tsubu::detail

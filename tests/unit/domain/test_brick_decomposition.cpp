@@ -29,7 +29,7 @@ const domain<3> closed_cube{{0, 0, 0}, {1, 1, 1}};
 const domain<3> periodic_cube{{0, 0, 0}, {1, 1, 1}, {.periodic = {true, true, true}}};
 
 template <std::size_t D>
-std::size_t count_of(const std::vector<neighbor_rank<D>>& found, std::size_t rank, const image_shift<D>& shift) {
+std::size_t count_of(const std::vector<neighbor_rank<D>>& found, tsubu::rank_t rank, const image_shift<D>& shift) {
     return static_cast<std::size_t>(std::count(found.begin(), found.end(), neighbor_rank<D>{rank, shift}));
 }
 

@@ -25,10 +25,10 @@ TEMPLATE_TEST_CASE("two stretches reach one another or neither does, at the last
         };
         const auto mine = some_stretch();
         const auto other = some_stretch();
-        for (const auto& image : reaching_images(along, mine, other, along.length() * 2))
+        for (const auto& image : reaching_images("test", along, mine, other, along.length() * 2))
             for (const auto cutoff : {image.gap, std::nextafter(image.gap, TestType{0}), std::nextafter(image.gap, TestType{9})}) {
-                const auto there = reaching_images(along, mine, other, cutoff);
-                const auto back = reaching_images(along, other, mine, cutoff);
+                const auto there = reaching_images("test", along, mine, other, cutoff);
+                const auto back = reaching_images("test", along, other, mine, cutoff);
                 REQUIRE(there.size() == back.size());
                 for (std::size_t k = 0; k < there.size(); ++k) {
                     REQUIRE(there[k].shift == -back[back.size() - 1 - k].shift);

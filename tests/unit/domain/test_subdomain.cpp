@@ -84,7 +84,7 @@ void batched_is_single() {
         for (const std::size_t count : {0U, 1U, 7U, 63U, 64U, 65U, 128U, 1000U, 1024U, 1025U, 2100U}) {
             const auto rows = mixed_points(mine, count, count + rank);
             std::array<std::vector<Scalar>, D> storage;
-            tsubu::position_columns<D, Scalar> columns{};
+            typename tsubu::points<D, const Scalar>::columns columns{};
             for (std::size_t k = 0; k < D; ++k) {
                 for (const auto& x : rows) storage[k].push_back(x[k]);
                 columns[k] = storage[k];
@@ -103,19 +103,19 @@ void batched_is_single() {
                 mine.owns(columns, mask);
                 CHECK(mask == owned);
                 mask.assign(count, 7);
-                mine.owns(std::span(rows), mask);
+                mine.owns(rows, mask);
                 CHECK(mask == owned);
                 mask.assign(count, 7);
                 mine.owns_extended(columns, mask);
                 CHECK(mask == extended);
                 mask.assign(count, 7);
-                mine.owns_extended(std::span(rows), mask);
+                mine.owns_extended(rows, mask);
                 CHECK(mask == extended);
                 std::vector<index_t> left(count, -5);
                 left.resize(mine.leavers(columns, left));
                 CHECK(left == leavers);
                 left.assign(count, -5);
-                left.resize(mine.leavers(std::span(rows), left));
+                left.resize(mine.leavers(rows, left));
                 CHECK(left == leavers);
             });
         }
@@ -142,22 +142,35 @@ TEST_CASE("what is not a number leaves, and is not lost", "[domain][B3][batch][F
 
 TEST_CASE("spans of different length are refused", "[domain][batch][input]") {
     const auto mine = unit_cube();
-    const std::vector<double> four(4);
-    const std::vector<double> three(3);
-    std::vector<unsigned char> mask(4);
-    const auto text = thrown<tsubu::input_error>([&] { mine.owns({four, three, four}, mask); });
+    const std::vector<vec<3>> x(4);
+    std::vector<unsigned char> mask(3);
+    const auto text = thrown<tsubu::input_error>([&] { mine.owns(x, mask); });
     INFO(text);
-    CHECK(says(text, "tsubu::subdomain::owns: 3 coordinates for 4 points; give spans of equal length"));
-    CHECK(says(thrown<tsubu::input_error>([&] { mine.owns_extended({three, three, three}, mask); }), "subdomain::owns_extended"));
-    std::vector<index_t> left(3);
-    CHECK_THROWS_AS(mine.leavers({four, four, four}, left), tsubu::input_error);
-    CHECK_THROWS_AS(mine.leavers({three, three, four}, left), tsubu::input_error);
-    CHECK(mine.leavers({three, three, three}, left) == 0);
-    std::vector<index_t> longer(10);
-    CHECK(mine.leavers({four, four, four}, longer) == 0);
-    const std::vector<vec<3>> rows(5);
-    CHECK_THROWS_AS(mine.owns(std::span(rows), mask), tsubu::input_error);
-    CHECK_THROWS_AS(mine.leavers(std::span(rows), left), tsubu::input_error);
+    CHECK(says(text, "tsubu::subdomain::owns: 3 answers for 4 points; give spans of equal length"));
+    CHECK(says(thrown<tsubu::input_error>([&] { mine.owns_extended(x, mask); }), "subdomain::owns_extended"));
+    CHECK(says(thrown<tsubu::input_error>([&] { mine.clear_of_borders(x, 0.1, mask); }), "subdomain::clear_of_borders"));
+    std::vector<index_t> left(5);
+    CHECK(says(thrown<tsubu::input_error>([&] { mine.leavers(x, left); }), "subdomain::leavers: 5 answers for 4"));
+    std::vector<double> distances(3);
+    CHECK(says(thrown<tsubu::input_error>([&] { mine.face_distance(x, distances); }), "subdomain::face_distance"));
+}
+
+TEST_CASE("borders and distances of many points are those of each", "[domain][batch][B6]") {
+    const auto mine = brick_decomposition<3>({{0, 0, 0}, {1, 1, 1}}, 3).subdomain(1);
+    const auto rows = mixed_points<3, double>(mine, 1000, 3);
+    std::vector<unsigned char> mask(rows.size());
+    std::vector<double> distances(rows.size());
+    each_instruction_set{}.run([&] {
+        mine.clear_of_borders(rows, 0.1, mask);
+        mine.face_distance(rows, distances);
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            different += (mask[i] != 0) != mine.clear_of_borders(rows[i], 0.1) ? 1U : 0U;
+            const auto one = mine.face_distance(rows[i]);
+            different += distances[i] != one && !(std::isnan(distances[i]) && std::isnan(one)) ? 1U : 0U;
+        }
+        CHECK(different == 0);
+    });
 }
 
 TEST_CASE("clear of borders: far enough from both faces, inside", "[domain][B6][F3]") {

@@ -166,14 +166,14 @@ TEMPLATE_LIST_TEST_CASE("of 1 to 7 bricks of the cell exactly one owns a point i
                 for (int i = 0; i < 150; ++i) {
                     const auto x = some_point(box, random, -0.2, 1.2);
                     std::size_t owners = 0;
-                    for (std::size_t rank = 0; rank < ranks; ++rank) owners += parts.owns(rank, x) ? 1U : 0U;
+                    for (std::size_t rank = 0; rank < ranks; ++rank) owners += parts.subdomain(rank).owns(x) ? 1U : 0U;
                     REQUIRE(owners == (box.contains(x) ? 1U : 0U));
-                    if (owners == 1) REQUIRE(parts.owns(parts.owner(x), x));
+                    if (owners == 1) REQUIRE(parts.subdomain(parts.owner(x)).owns(x));
                     inside += owners == 1 ? 1 : 0;
                     if (!periodic) continue;
                     const auto y = box.wrap(x).position;
                     REQUIRE(box.contains(y));
-                    REQUIRE(parts.owns(parts.owner(y), y));
+                    REQUIRE(parts.subdomain(parts.owner(y)).owns(y));
                 }
                 CHECK(inside > 5);
             }

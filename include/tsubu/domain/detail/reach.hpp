@@ -5,18 +5,21 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
+#include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/axis.hpp>
 #include <tsubu/domain/domain.hpp>
+#include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
 
-#include <algorithm>  // std::max, std::min
+#include <algorithm>  // std::max
 #include <array>      // std::array
 #include <cmath>      // std::abs, std::floor
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::int64_t
-#include <limits>   // std::numeric_limits
-#include <vector>   // std::vector
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t
+#include <limits>     // std::numeric_limits
+#include <string>     // std::to_string
+#include <vector>     // std::vector
 
 namespace tsubu::detail {
 
@@ -27,6 +30,28 @@ struct stretch {
     Real hi;
 };
 
+/// An interval of an axis as a stretch in real units: to the first coordinate of the next part, or to the face.
+template <class Scalar>
+[[nodiscard]] auto real_stretch(const axis<Scalar>& along, const interval<Scalar>& part) noexcept {
+    const bool is_last = part.last == along.inside().last;
+    return stretch<typename axis<Scalar>::real_type>{
+        along.to_real(part.first), is_last ? along.real().hi() : along.to_real(after(part.last))};
+}
+
+/// @throws input_error if there is no such rank.
+inline void check_rank(const char* where, std::size_t rank, std::size_t ranks) {
+    if (rank >= ranks)
+        raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks),
+                           "ranks count from 0");
+}
+
+/// @throws input_error if the cutoff is negative, infinite or NaN.
+template <class Real>
+void check_cutoff(const char* where, Real cutoff) {
+    if (!(cutoff >= 0) || !is_finite(cutoff))
+        raise<input_error>(where, "the cutoff " + shown(cutoff), "give a finite length of at least 0");
+}
+
 /// An image that reaches, and the gap that remains at least, however its ends were rounded [m].
 template <class Real>
 struct reaching_image {
@@ -34,22 +59,12 @@ struct reaching_image {
     Real gap;
 };
 
-/// @throws input_error if the cutoff is negative, infinite or NaN, or more than 2^20 periods of some axis.
-template <class Real>
-void check_cutoff(const char* where, Real cutoff, Real shortest_period) {
-    if (!(cutoff >= 0) || !is_finite(cutoff))
-        raise<input_error>(where, "the cutoff " + shown(cutoff), "give a finite length of at least 0");
-    if (cutoff / shortest_period > static_cast<Real>(1 << 20))
-        raise<input_error>(where, "the cutoff " + shown(cutoff) + " reaches over more than 2^20 periods of " +
-                                      shown(shortest_period),
-                           "take a smaller cutoff, or a larger box");
-}
-
-/// All shifts n with [other.lo + n L, other.hi + n L] within the cutoff of mine, in increasing order. Rounding may let in an
+/// All shifts n with [other.lo + n L, other.hi + n L] within the reach of mine, in increasing order. Rounding may let in an
 /// image that is a few units in the last place too far, and keeps out none.
+/// @throws input_error if the reach is more than 2^20 periods.
 template <class Real>
-[[nodiscard]] std::vector<reaching_image<Real>> reaching_images(const axis<Real>& along, stretch<Real> mine,
-                                                               stretch<Real> other, Real cutoff) {
+[[nodiscard]] std::vector<reaching_image<Real>> reaching_images(const char* where, const axis<Real>& along,
+                                                               stretch<Real> mine, stretch<Real> other, Real reach) {
     constexpr Real slack = 8 * std::numeric_limits<Real>::epsilon();
     std::vector<reaching_image<Real>> found;
     const auto try_shift = [&](std::int64_t n) {
@@ -59,45 +74,51 @@ template <class Real>
         const Real above = (other.lo - mine.hi) + moved;
         const Real size = (std::max)({std::abs(moved), std::abs(along.lo()), std::abs(along.hi())});
         const Real gap = (std::max)({below, above, slack * size}) - slack * size;
-        if (gap <= cutoff) found.push_back({n, gap});
+        if (gap <= reach) found.push_back({n, gap});
     };
     if (!along.is_periodic()) {
         try_shift(0);
         return found;
     }
-    const auto most = static_cast<std::int64_t>(std::floor(cutoff / along.length())) + 2;
+    if (reach / along.length() > static_cast<Real>(1 << 20))
+        raise<input_error>(where, "the cutoff reaches " + shown(reach) + " along an axis, more than 2^20 periods of " +
+                                      shown(along.length()),
+                           "take a smaller cutoff, or a larger box");
+    const auto most = static_cast<std::int64_t>(std::floor(reach / along.length())) + 2;
     for (std::int64_t n = -most; n <= most; ++n) try_shift(n);
     return found;
 }
 
-/// The ranks whose subdomains, or images of them, lie within the cutoff of that of `rank`, in increasing order of rank and
-/// shift. box_of(rank) has one stretch per axis.
-template <class Domain, class BoxOf>
-[[nodiscard]] auto neighbors_within(const char* where, const Domain& whole, std::size_t ranks, std::size_t rank,
-                                    typename Domain::real_type cutoff, BoxOf&& box_of) {
+/// The ranks whose parts of a cell, or images of them, lie near that of `rank`, in increasing order of rank and shift.
+///
+/// @param reach     reach(mine, theirs) is how near along each axis [D], for two subdomains.
+/// @param is_round  the reach is the same length along all axes, which are at right angles: what is near along each of
+///                  them may yet be too far across a corner.
+template <class Domain, class Decomposition, class Reach>
+[[nodiscard]] auto neighbors_within(const char* where, const Domain& cell, const Decomposition& parts, std::size_t rank,
+                                    Reach&& reach, bool is_round) {
     using Real = typename Domain::real_type;
     constexpr std::size_t D = Domain::dimension;
-    auto shortest_period = std::numeric_limits<Real>::infinity();
-    for (std::size_t k = 0; k < D; ++k)
-        if (whole.real_axis(k).is_periodic())
-            shortest_period = (std::min)(shortest_period, whole.real_axis(k).length());
-    check_cutoff(where, cutoff, shortest_period);
-    const auto mine = box_of(rank);
+    check_rank(where, rank, parts.ranks());
+    const auto mine = parts.subdomain(rank);
     std::vector<neighbor_rank<D>> found;
     std::array<std::vector<reaching_image<Real>>, D> images;
+    vec<D, Real> near{};
     image_shift<D> shift{};
-    for (std::size_t other = 0; other < ranks; ++other) {
-        const auto theirs = box_of(other);
+    for (std::size_t other = 0; other < parts.ranks(); ++other) {
+        const auto theirs = parts.subdomain(other);
+        near = reach(mine, theirs);
         for (std::size_t k = 0; k < D; ++k)
-            images[k] = reaching_images(whole.real_axis(k), mine[k], theirs[k], cutoff);
+            images[k] = reaching_images<Real>(where, cell.real_axis(k), {mine.lo()[k], mine.hi()[k]},
+                                              {theirs.lo()[k], theirs.hi()[k]}, near[k]);
         const auto combine = [&](auto&& self, std::size_t k, Real square) -> void {
             if (k == D) {
-                if (other != rank || shift != image_shift<D>{}) found.push_back({other, shift});
+                if (other != rank || shift != image_shift<D>{}) found.push_back({static_cast<rank_t>(other), shift});
                 return;
             }
             for (const auto& image : images[k]) {
-                const Real ratio = cutoff > 0 ? image.gap / cutoff : 0;
-                const Real further = square + ratio * ratio;  // corners are farther than their axes
+                const Real ratio = near[k] > 0 && is_round ? image.gap / near[k] : 0;
+                const Real further = square + ratio * ratio;
                 if (further > 1 + 8 * std::numeric_limits<Real>::epsilon()) continue;
                 shift[k] = image.shift;
                 self(self, k + 1, further);
@@ -106,6 +127,15 @@ template <class Domain, class BoxOf>
         combine(combine, 0, 0);
     }
     return found;  // by rank, and by shift along the first axis, then the next
+}
+
+/// The same in a box with right angles.
+template <class Decomposition, class Real>
+[[nodiscard]] auto neighbors_within(const char* where, const Decomposition& parts, std::size_t rank, Real cutoff) {
+    check_cutoff(where, cutoff);
+    vec<Decomposition::dimension, Real> reach{};
+    reach.fill(cutoff);
+    return neighbors_within(where, parts.whole(), parts, rank, [&](const auto&, const auto&) { return reach; }, true);
 }
 
 }  // namespace tsubu::detail

@@ -240,7 +240,7 @@ struct shift_of_wrong_sign : sound_bricks {
 
 using decomposition_twins =
     std::tuple<closed_upper_faces, gap_of_one_place, open_top, padded_face, two_extended_owners, low_side_is_lost,
-               owner_by_formula, ranks_swapped, owner_of_image, batch_by_formula, lost_corner, nearest_only, no_self_image,
-               neighbor_of_itself, named_twice, too_many, one_sided, shift_of_wrong_sign>;
+               owner_by_formula, ranks_swapped, owner_of_image, batch_by_formula, lost_corner, nearest_only,
+               no_self_image, neighbor_of_itself, named_twice, too_many, one_sided, shift_of_wrong_sign>;
 
 }  // namespace tsubu::testing::broken

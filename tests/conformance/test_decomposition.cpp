@@ -29,9 +29,9 @@ struct ledger {
     std::size_t checked = 0;
     std::string first;
 };
-#define CHECK_KEPT(seen)        \
-    do {                        \
-        INFO((seen).first);     \
+#define CHECK_KEPT(seen)             \
+    do {                             \
+        INFO((seen).first);          \
         CHECK((seen).first.empty()); \
         CHECK((seen).checked > 0);   \
     } while (false)
@@ -105,8 +105,8 @@ void check_scales() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("decompositions keep all laws, up to 64 ranks", "[domain][conformance][I6][I7][F3][F4]", double, float,
-                   lattice<std::int32_t>, lattice<std::int64_t>) {
+TEMPLATE_TEST_CASE("decompositions keep all laws, up to 64 ranks", "[domain][conformance][I6][I7][F3][F4]", double,
+                   float, lattice<std::int32_t>, lattice<std::int64_t>) {
     check_all_laws<1, TestType>();
     check_all_laws<2, TestType>();
     check_all_laws<3, TestType>();

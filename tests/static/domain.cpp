@@ -5,17 +5,17 @@
 
 #include <cstdint>
 
-#define TSUBU_TEST_DIMENSIONS(Scalar)                      \
-    template class tsubu::axis<Scalar>;                    \
-    template class tsubu::cuts<Scalar>;                    \
-    template class tsubu::domain<1, Scalar>;               \
-    template class tsubu::domain<2, Scalar>;               \
-    template class tsubu::domain<3, Scalar>;               \
-    template class tsubu::subdomain<1, Scalar>;            \
-    template class tsubu::subdomain<3, Scalar>;            \
-    template class tsubu::brick_decomposition<1, Scalar>;  \
-    template class tsubu::brick_decomposition<2, Scalar>;  \
-    template class tsubu::brick_decomposition<3, Scalar>;  \
+#define TSUBU_TEST_DIMENSIONS(Scalar)                         \
+    template class tsubu::axis<Scalar>;                       \
+    template class tsubu::cuts<Scalar>;                       \
+    template class tsubu::domain<1, Scalar>;                  \
+    template class tsubu::domain<2, Scalar>;                  \
+    template class tsubu::domain<3, Scalar>;                  \
+    template class tsubu::subdomain<1, Scalar>;               \
+    template class tsubu::subdomain<3, Scalar>;               \
+    template class tsubu::brick_decomposition<1, Scalar>;     \
+    template class tsubu::brick_decomposition<2, Scalar>;     \
+    template class tsubu::brick_decomposition<3, Scalar>;     \
     template class tsubu::bisection_decomposition<1, Scalar>; \
     template class tsubu::bisection_decomposition<2, Scalar>; \
     template class tsubu::bisection_decomposition<3, Scalar>
@@ -32,10 +32,10 @@ template class tsubu::triclinic_box<3, float>;
 template class tsubu::wedge<double>;
 template class tsubu::wedge<float>;
 
-#define TSUBU_TEST_CELLS(D, Scalar, ...)                                                                \
-    template class tsubu::cell_subdomain<__VA_ARGS__>;                                                  \
-    template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>;       \
-    template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>;   \
+#define TSUBU_TEST_CELLS(D, Scalar, ...)                                                              \
+    template class tsubu::cell_subdomain<__VA_ARGS__>;                                                \
+    template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>;     \
+    template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>; \
     static_assert(tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>>)
 
 TSUBU_TEST_CELLS(2, double, tsubu::triclinic_box<2, double>);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Prints whose points are, in many boxes: for owners.cmake, which compares what different compilers and flags make of it.
+/// Prints whose points are, in many boxes: for owners.cmake, which compares what different compilers and flags make of
+/// it.
 #include <tsubu/core/random.hpp>
 #include <tsubu/domain/bisection_decomposition.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>

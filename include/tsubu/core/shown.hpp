@@ -10,16 +10,14 @@ namespace tsubu::detail {
 
 /// The shortest text that reads back as the same number.
 template <class Number>
-    requires requires(char* at, Number x) { std::to_chars(at, at, x); }
+requires requires(char* at, Number x) { std::to_chars(at, at, x); }
 [[nodiscard]] std::string shown(Number x) {
     char text[64];
     return {text, std::to_chars(text, text + sizeof(text), x).ptr};
 }
 /// A lattice coordinate, or whatever else wraps a number.
 template <class Wrapper>
-    requires requires(Wrapper x) { shown(x.value); }
-[[nodiscard]] std::string shown(Wrapper x) {
-    return shown(x.value);
-}
+requires requires(Wrapper x) { shown(x.value); }
+[[nodiscard]] std::string shown(Wrapper x) { return shown(x.value); }
 
 }  // namespace tsubu::detail

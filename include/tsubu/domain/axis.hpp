@@ -24,11 +24,12 @@ struct wrapped_coordinate {
 
 /// One direction of a box. Every member is total: any finite number has a result, in O(1).
 ///
-/// Equations with L = hi - lo, as the scalar rounds it; a periodic axis is lo <= x < hi, since hi is the image of lo, any
-/// other lo <= x <= hi (B1).
+/// Equations with L = hi - lo, as the scalar rounds it; a periodic axis is lo <= x < hi, since hi is the image of lo,
+/// any other lo <= x <= hi (B1).
 template <class Scalar = double>
 class axis {
-    static_assert(std::floating_point<Scalar> && sizeof(Scalar) <= sizeof(double), "axis takes float, double or a lattice");
+    static_assert(std::floating_point<Scalar> && sizeof(Scalar) <= sizeof(double),
+                  "axis takes float, double or a lattice");
 
 public:
     using scalar_type = Scalar;
@@ -37,12 +38,12 @@ public:
     /// @throws input_error unless lo < hi, both and hi - lo finite.
     constexpr axis(Scalar lo, Scalar hi, bool periodic) : lo_(lo), hi_(hi), length_(hi - lo), periodic_(periodic) {
         if (!detail::is_finite(lo) || !detail::is_finite(hi))
-            detail::raise<input_error>("axis", "the face " + detail::shown(detail::is_finite(lo) ? hi : lo) +
-                                                          " is not a finite number",
+            detail::raise<input_error>("axis",
+                                       "the face " + detail::shown(detail::is_finite(lo) ? hi : lo) +
+                                           " is not a finite number",
                                        "give finite faces; an axis without end needs none of them to be near it");
         if (!(lo < hi))
-            detail::raise<input_error>("axis",
-                                       "lo = " + detail::shown(lo) + " is not below hi = " + detail::shown(hi),
+            detail::raise<input_error>("axis", "lo = " + detail::shown(lo) + " is not below hi = " + detail::shown(hi),
                                        "give the lower face first, and a box that is not empty");
         if (!detail::is_finite(length_))
             detail::raise<input_error>("axis",
@@ -61,9 +62,9 @@ public:
     }
     [[nodiscard]] constexpr bool contains(Scalar x) const noexcept { return inside().contains(x); }
 
-    /// The image of x on a periodic axis, and how many periods it was away; any other axis leaves x alone. What rounds to
-    /// hi is lo of the next period. |position + shift L - x| is a few units in the last place of the largest of them.
-    /// Beyond 2^53 periods no number tells one from the next; beyond 2^63 shift stays at its end.
+    /// The image of x on a periodic axis, and how many periods it was away; any other axis leaves x alone. What rounds
+    /// to hi is lo of the next period. |position + shift L - x| is a few units in the last place of the largest of
+    /// them. Beyond 2^53 periods no number tells one from the next; beyond 2^63 shift stays at its end.
     /// @throws input_error if x is not finite.
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> wrap(Scalar x) const {
         if (inside().contains(x) || (!periodic_ && detail::is_finite(x))) return {x, 0};
@@ -82,8 +83,8 @@ public:
     [[nodiscard]] constexpr const axis& real() const noexcept { return *this; }
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> from_real(Scalar x) const { return wrap(x); }
     [[nodiscard]] constexpr Scalar to_real(Scalar x) const noexcept { return x; }
-    /// The shortest of the displacements d + n L; of two, that which an even n gives, so that -d has the opposite answer.
-    /// Not periodic: d.
+    /// The shortest of the displacements d + n L; of two, that which an even n gives, so that -d has the opposite
+    /// answer. Not periodic: d.
     [[nodiscard]] Scalar minimum_image(Scalar d) const noexcept {
         if (!periodic_ || (d <= length_ / 2 && d >= -length_ / 2)) return d;
         return std::remainder(d, length_);  // exact
@@ -141,8 +142,9 @@ public:
     /// The faces and the length in real units.
     [[nodiscard]] constexpr const axis<double>& real() const noexcept { return real_; }
 
-    /// The nearest lattice coordinate, and the periods that x was away: an error of at most L / 2^(b+1), and of what double
-    /// rounds where b > 52; what rounds up to hi is lo of the next period. @throws input_error if x is not finite.
+    /// The nearest lattice coordinate, and the periods that x was away: an error of at most L / 2^(b+1), and of what
+    /// double rounds where b > 52; what rounds up to hi is lo of the next period. @throws input_error if x is not
+    /// finite.
     [[nodiscard]] wrapped_coordinate<lattice<Int>> from_real(double x) const {
         const auto [position, shift] = real_.wrap(x);
         constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());  // 2^b

@@ -27,14 +27,15 @@
 
 namespace tsubu {
 
-/// Recursive coordinate bisection: the box is cut across the direction in which the sample is longest, so that both sides
-/// have the weight that their numbers of ranks ask for, and each side again.
+/// Recursive coordinate bisection: the box is cut across the direction in which the sample is longest, so that both
+/// sides have the weight that their numbers of ranks ask for, and each side again.
 ///
 ///     tsubu::bisection_decomposition<3> parts(box, ranks, sampled_positions);   // the same sample on all ranks
 ///
 /// Concept:      decomposition.
-/// Cost:         construction O(S log S log ranks) for S samples; owner O(log ranks); subdomain O(1); neighbors O(ranks).
-/// Choose it when particles are uneven: a heap, a jet, a drum. Do not when they fill the box: brick_decomposition has fewer
+/// Cost:         construction O(S log S log ranks) for S samples; owner O(log ranks); subdomain O(1); neighbors
+/// O(ranks). Choose it when particles are uneven: a heap, a jet, a drum. Do not when they fill the box:
+/// brick_decomposition has fewer
 ///               neighbours, and finds an owner in O(1).
 /// Source:       Berger & Bokhari 1987, doi:10.1109/TC.1987.1676942.
 template <std::size_t D, class Scalar = double>
@@ -46,7 +47,8 @@ public:
     using position_type = typename box_type::position_type;
     static constexpr std::size_t dimension = D;
 
-    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box count for nothing.
+    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box count for
+    /// nothing.
     ///                 Where no sample lies, a cut halves the volume.
     /// @param weights  of each, at least 0; empty: all 1.
     /// @throws input_error if ranks is 0, a weight is negative or not finite, the lengths differ, or a part has too few
@@ -135,7 +137,8 @@ private:
             return static_cast<std::uint32_t>(leaves_.size() - 1) | leaf;
         }
         const auto below_ranks = ranks / 2;
-        const double portion = static_cast<double>(ranks) / static_cast<double>(below_ranks);  // 1 / the lower side's share
+        const double portion =
+            static_cast<double>(ranks) / static_cast<double>(below_ranks);  // 1 / the lower side's share
         const auto [k, begin] = choose_cut(box, ranks, portion, members, sample, weights);
         const auto number = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({begin, static_cast<std::uint32_t>(k), 0, 0});
@@ -156,8 +159,8 @@ private:
         std::size_t axis;
         Scalar begin;
     };
-    /// Across the direction in which the sample is longest, else the box is, of those that can be cut so that each side has
-    /// at least as many points as ranks.
+    /// Across the direction in which the sample is longest, else the box is, of those that can be cut so that each side
+    /// has at least as many points as ranks.
     chosen_cut choose_cut(const region& box, std::size_t ranks, double portion, std::vector<std::size_t>& members,
                           std::span<const position_type> sample, std::span<const double> weights) const {
         std::array<std::size_t, D> axes{};
@@ -262,7 +265,8 @@ private:
         else
             return detail::at_ordinal<Scalar>(detail::ordinal(x) + steps);
     }
-    /// The length from the first to the last coordinate: without a product that is added, so that fused multiply-add chooses no other axis.
+    /// The length from the first to the last coordinate: without a product that is added, so that fused multiply-add
+    /// chooses no other axis.
     [[nodiscard]] real_type edge_of(std::size_t k, const interval<Scalar>& range) const noexcept {
         if constexpr (is_lattice<Scalar>) {
             using Int = decltype(range.first.value);

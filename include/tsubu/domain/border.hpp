@@ -20,8 +20,8 @@ namespace tsubu {
 ///  2. owned_extended: of all parts exactly one owns each finite x (B4, B5);
 ///  3. what a part owns inside the axis is the same by both.
 template <class Border, class Scalar>
-concept border_policy = std::semiregular<Border> && requires(const Border& border, const cuts<Scalar>& where,
-                                                             std::size_t part) {
+concept border_policy = std::semiregular<Border> &&
+    requires(const Border& border, const cuts<Scalar>& where, std::size_t part) {
     { border.owned(where, part) } -> std::same_as<interval<Scalar>>;
     { border.owned_extended(where, part) } -> std::same_as<interval<Scalar>>;
 };
@@ -38,7 +38,8 @@ struct exact {
         return where.owned(part);
     }
     template <class Scalar>
-    [[nodiscard]] constexpr interval<Scalar> owned_extended(const cuts<Scalar>& where, std::size_t part) const noexcept {
+    [[nodiscard]] constexpr interval<Scalar> owned_extended(const cuts<Scalar>& where,
+                                                            std::size_t part) const noexcept {
         return where.owned_extended(part);
     }
 };
@@ -46,9 +47,10 @@ static_assert(border_policy<exact, double> && border_policy<exact, lattice<int>>
 
 /// The faces of the box moved out by an absolute length, as LIGGGHTS does; to compare with, and to reproduce it.
 ///
-/// Concept:       border_policy in form; breaks law 1 where epsilon is not small against the parts, or vanishes beside the
-///                faces: at |x| >= 2^27 in double, >= 0.25 in float, and for boxes of 1e-7. Breaks law 2 for two or more
-///                parts (the first two both own the cut between them), and for one (nobody owns what lies below).
+/// Concept:       border_policy in form; breaks law 1 where epsilon is not small against the parts, or vanishes beside
+/// the
+///                faces: at |x| >= 2^27 in double, >= 0.25 in float, and for boxes of 1e-7. Breaks law 2 for two or
+///                more parts (the first two both own the cut between them), and for one (nobody owns what lies below).
 /// Cost:          two comparisons.
 /// Choose it when results of a code that pads its faces are to be reproduced. Do not otherwise.
 /// Source:        B2, B3, B4 as printed.
@@ -69,7 +71,8 @@ struct padded {
                 detail::next_below(part + 1 == where.parts() ? end + pad : end)};
     }
     template <std::floating_point Scalar>
-    [[nodiscard]] constexpr interval<Scalar> owned_extended(const cuts<Scalar>& where, std::size_t part) const noexcept {
+    [[nodiscard]] constexpr interval<Scalar> owned_extended(const cuts<Scalar>& where,
+                                                            std::size_t part) const noexcept {
         const auto all = interval<Scalar>::all();
         if (part + 1 == where.parts()) return {where.begin(part), all.last};
         if (part == 0) return {all.first, end_of(where, part)};  // closed: so has the next part

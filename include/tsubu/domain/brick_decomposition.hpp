@@ -17,13 +17,13 @@
 #include <tsubu/domain/process_grid.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
-#include <array>      // std::array
-#include <cstddef>    // std::size_t
-#include <cstdint>    // std::int32_t
-#include <span>       // std::span
-#include <string>     // std::to_string
-#include <utility>    // std::move
-#include <vector>     // std::vector
+#include <array>    // std::array
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::int32_t
+#include <span>     // std::span
+#include <string>   // std::to_string
+#include <utility>  // std::move
+#include <vector>   // std::vector
 
 namespace tsubu {
 
@@ -119,8 +119,9 @@ public:
         }
         return {owned, extended, lo, hi};
     }
-    /// The ranks, and images of ranks, within a cutoff of one, itself included where an image of it is. Any cutoff: more
-    /// than a brick, more than the box. @throws input_error if the cutoff is negative or not finite, or there is no such rank.
+    /// The ranks, and images of ranks, within a cutoff of one, itself included where an image of it is. Any cutoff:
+    /// more than a brick, more than the box. @throws input_error if the cutoff is negative or not finite, or there is
+    /// no such rank.
     [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
         return detail::neighbors_within("brick_decomposition::neighbors", *this, rank, cutoff);
     }

@@ -91,9 +91,11 @@ private:
 ///
 /// Concept:      decomposition.
 /// Cost:         one to_cell more than the decomposition of the cell for each point.
-/// Choose it when the box is not a domain. Do not when it is: brick_decomposition and bisection_decomposition take that.
+/// Choose it when the box is not a domain. Do not when it is: brick_decomposition and bisection_decomposition take
+/// that.
 ///
-/// @tparam Box    a box that tells how far a length reaches in its cell: cell_reach(cutoff, a, b), for two subdomains of it.
+/// @tparam Box    a box that tells how far a length reaches in its cell: cell_reach(cutoff, a, b), for two subdomains
+/// of it.
 /// @tparam Parts  brick_decomposition or bisection_decomposition of box.cell().
 template <box Box, decomposition Parts>
 class cell_decomposition {
@@ -134,8 +136,8 @@ public:
         detail::check_rank("cell_decomposition::subdomain", rank, ranks());
         return {box_, parts_.subdomain(rank)};
     }
-    /// As those of the decomposition of the cell; may name ranks that are a little too far, since a distance in the cell is
-    /// only a bound of that in the box.
+    /// As those of the decomposition of the cell; may name ranks that are a little too far, since a distance in the
+    /// cell is only a bound of that in the box.
     /// @throws input_error if the cutoff is negative or not finite, or there is no such rank.
     [[nodiscard]] std::vector<neighbor_rank<dimension>> neighbors(std::size_t rank, real_type cutoff) const {
         constexpr auto where = "cell_decomposition::neighbors";

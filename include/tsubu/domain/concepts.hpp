@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// box and decomposition: where the particles of a simulation can be, and how that is divided among ranks; and the tables
-/// of their models.
+/// box and decomposition: where the particles of a simulation can be, and how that is divided among ranks; and the
+/// tables of their models.
 ///
-/// | box | cell | wrap | choose it when |
-/// |---|---|---|---|
-/// | domain | itself | exact to the last bits, at every scale | faces are at right angles |
-/// | triclinic_box | fractions of the edges | a few units in the last place of the farthest corner | the box is sheared, or the unit cell of a crystal |
-/// | wedge | angle, radius, z | as triclinic_box, and an arc tangent | a drum, a mill, a rotor: body and load are the same in each sector |
+/// | box           | cell                    | wrap rounds                    | choose it when                        |
+/// |---------------|-------------------------|--------------------------------|---------------------------------------|
+/// | domain        | itself                  | in the last bits, at any scale | faces are at right angles             |
+/// | triclinic_box | fractions of its edges  | as its farthest corner         | it is sheared, or a crystal's cell    |
+/// | wedge         | angle, radius, z        | as its farthest corner         | body and load repeat around an axis   |
 ///
-/// | decomposition | subdomains | owner(x) | choose it when |
-/// |---|---|---|---|
-/// | brick_decomposition | a grid of cuts along each axis | O(1) for equal parts | particles fill the box evenly, or only one axis is uneven |
-/// | bisection_decomposition | a tree of cuts, each through a weighted middle | O(log ranks) | particles are uneven: a heap, a jet, a drum |
-/// | cell_decomposition | either of them, in the cell of a box | one to_cell more | the box is not a domain |
+/// | decomposition           | subdomains             | owner(x)         | choose it when                        |
+/// |-------------------------|------------------------|------------------|---------------------------------------|
+/// | brick_decomposition     | cuts along each axis   | O(1), equal ones | particles fill the box evenly         |
+/// | bisection_decomposition | a tree of cuts         | O(log ranks)     | they are uneven: a heap, a jet        |
+/// | cell_decomposition      | either, of a box' cell | and one to_cell  | the box is not a domain               |
 #pragma once
 
 #include <tsubu/core/types.hpp>
@@ -31,8 +31,8 @@ namespace tsubu {
 /// Where particles can be. A box has a cell, a domain of its own coordinates, in which its faces are at right angles:
 /// there it is decided what is inside, and whose it is.
 ///  1. contains(x) is cell().contains(to_cell(x)), bit for bit;
-///  2. the box contains wrap(x).position along every periodic axis of the cell, for any finite x; what it contains already
-///     stays as it is, with shift 0;
+///  2. the box contains wrap(x).position along every periodic axis of the cell, for any finite x; what it contains
+///     already stays as it is, with shift 0;
 ///  3. image(wrap(x).position, wrap(x).shift) is x, to within rounding;
 ///  4. minimum_image(a, b) is no longer than image(a, shift) - b for any shift, to within rounding.
 template <class Box>
@@ -63,14 +63,14 @@ concept part_of =
     };
 
 /// How a box is divided among ranks, the same on all of them.
-///  1. subdomain(0) .. subdomain(ranks() - 1) own the box without gap or overlap: of all ranks one owns each point of it, and
-///     none any other; of owns_extended one each finite point, and none any other;
+///  1. subdomain(0) .. subdomain(ranks() - 1) own the box without gap or overlap: of all ranks one owns each point of
+///     it, and none any other; of owns_extended one each finite point, and none any other;
 ///  2. owner(x) is the rank whose owns_extended has x, bit for bit; for a point of the box so has its owns;
-///  3. neighbors(rank, cutoff) has (other, shift) if some point of other's subdomain, moved by shift, lies within the cutoff
-///     of some point of rank's; in a domain, if none does it has not; never (rank, 0); each once, in increasing order of
-///     rank and shift;
-///  4. neighbourhood is mutual: (b, s) is a neighbour of a exactly if (a, -s) is one of b; in a wedge of n sectors s and
-///     s + n are the same.
+///  3. neighbors(rank, cutoff) has (other, shift) if some point of other's subdomain, moved by shift, lies within the
+///     cutoff of some point of rank's; in a domain, if none does it has not; never (rank, 0); each once, in increasing
+///     order of rank and shift;
+///  4. neighbourhood is mutual: (b, s) is a neighbour of a exactly if (a, -s) is one of b; in a wedge of n sectors, s
+///     and s + n are the same.
 /// A batch answers as the single question does.
 template <class Decomposition>
 concept decomposition = requires(const Decomposition& parts, const typename Decomposition::position_type& x,

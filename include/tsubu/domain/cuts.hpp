@@ -19,18 +19,18 @@
 namespace tsubu {
 
 /// The parts of one axis, by the coordinates where they begin: part k is begin(k) <= x < begin(k + 1). One table for
-/// insertion, reading, migration and ghosts: what one part does not take, the next one does, whatever was rounded to get
-/// there. The first part begins at lo itself, and the last ends at hi itself (B2, decided).
+/// insertion, reading, migration and ghosts: what one part does not take, the next one does, whatever was rounded to
+/// get there. The first part begins at lo itself, and the last ends at hi itself (B2, decided).
 template <class Scalar = double>
 class cuts {
 public:
     /// One part: the whole axis.
     constexpr explicit cuts(const axis<Scalar>& whole) : cuts(whole, std::size_t{1}) {}
-    /// `parts` of equal length: begin(k) = lo + L / (parts / k), or, on a lattice, the first coordinate of the k-th share.
+    /// `parts` of equal length: begin(k) = lo + L / (parts / k), or, on a lattice, the first coordinate of the k-th
+    /// share.
     /// @throws input_error if parts is 0, or more than the scalar tells apart here.
     constexpr cuts(const axis<Scalar>& whole, std::size_t parts) : whole_(whole) {
-        if (parts == 0)
-            detail::raise<input_error>("cuts", "an axis in 0 parts", "divide it into at least 1");
+        if (parts == 0) detail::raise<input_error>("cuts", "an axis in 0 parts", "divide it into at least 1");
         begins_.reserve(parts);
         begins_.push_back(whole.lo());
         for (std::size_t k = 1; k < parts; ++k) begins_.push_back(uniform(whole, k, parts));
@@ -50,8 +50,8 @@ public:
     [[nodiscard]] constexpr interval<Scalar> owned(std::size_t part) const noexcept {
         return {begins_[part], part + 1 < parts() ? detail::before(begins_[part + 1]) : whole_.inside().last};
     }
-    /// The same, with the first part reaching down and the last one reaching up to everything (B4, B5): exactly one part
-    /// has any finite x.
+    /// The same, with the first part reaching down and the last one reaching up to everything (B4, B5): exactly one
+    /// part has any finite x.
     [[nodiscard]] constexpr interval<Scalar> owned_extended(std::size_t part) const noexcept {
         return {part == 0 ? interval<Scalar>::all().first : begins_[part],
                 part + 1 < parts() ? detail::before(begins_[part + 1]) : interval<Scalar>::all().last};
@@ -69,7 +69,8 @@ public:
 
 private:
     // Neither a product that is added nor a sum that overflows: the same with and without fused multiply-add.
-    [[nodiscard]] static constexpr Scalar uniform(const axis<Scalar>& whole, std::size_t k, std::size_t parts) noexcept {
+    [[nodiscard]] static constexpr Scalar uniform(const axis<Scalar>& whole, std::size_t k,
+                                                  std::size_t parts) noexcept {
         if constexpr (is_lattice<Scalar>) {
             using Int = decltype(whole.lo().value);
             // floor(k 2^b / parts), by long division: quotient and remainder of 2^b, each times k.

@@ -76,11 +76,12 @@ public:
     ///         periodic.
     domain(const real_position_type& lo, const real_position_type& hi, const options& with = {})
         : domain(lo, hi, with, std::make_index_sequence<D>{}) {}
-    /// The same box for positions of a narrower type: its faces rounded inwards, so that whatever is in it is in the wider
-    /// one. @throws input_error if nothing is left.
+    /// The same box for positions of a narrower type: its faces rounded inwards, so that whatever is in it is in the
+    /// wider one. @throws input_error if nothing is left.
     template <std::floating_point Wider>
-        requires(std::floating_point<Scalar> && sizeof(Wider) > sizeof(Scalar))
-    explicit domain(const domain<D, Wider, Border>& wider) : domain(faces_of(wider, false), faces_of(wider, true), options_of(wider)) {}
+    requires(std::floating_point<Scalar> &&
+             sizeof(Wider) > sizeof(Scalar)) explicit domain(const domain<D, Wider, Border>& wider)
+        : domain(faces_of(wider, false), faces_of(wider, true), options_of(wider)) {}
 
     /// A box whose cell is itself: see the concept box.
     [[nodiscard]] const domain& cell() const noexcept { return *this; }
@@ -159,7 +160,8 @@ public:
         return is_near(between_periodic_faces(cutoff), [&](std::size_t k) { return x[k]; });
     }
     /// mask[i] = 1 if point i is. @throws input_error as above, and if the lengths differ.
-    void near_periodic_face(const points<D, const real_type>& x, real_type cutoff, std::span<unsigned char> mask) const {
+    void near_periodic_face(const points<D, const real_type>& x, real_type cutoff,
+                            std::span<unsigned char> mask) const {
         detail::check_answers("domain::near_periodic_face", mask.size(), x.size());
         x.visit([&](auto at) {
             detail::each_point(x.size(), mask.data(), [at, between = between_periodic_faces(cutoff)](std::size_t i) {
@@ -168,11 +170,10 @@ public:
         });
     }
     /// The axis in real units; for floating point the axis itself.
-    [[nodiscard]] const axis<real_type>& real_axis(std::size_t k) const noexcept {
-        return axes_[k].real();
-    }
+    [[nodiscard]] const axis<real_type>& real_axis(std::size_t k) const noexcept { return axes_[k].real(); }
 
-    /// The coordinates of a position, and the periods that it was away: on a lattice the nearest, for floating point wrap.
+    /// The coordinates of a position, and the periods that it was away: on a lattice the nearest, for floating point
+    /// wrap.
     /// @throws input_error if a coordinate is not finite.
     [[nodiscard]] wrapped<D, Scalar> from_real(const real_position_type& x) const {
         wrapped<D, Scalar> result{};
@@ -233,7 +234,8 @@ private:
                                                    std::to_string(k) + whose() + " is not finite",
                                                "find the particle with this position: it was lost before");
     }
-    /// Of each axis what is not near a periodic face: everything, if it is not periodic; nothing, if the cutoff is large.
+    /// Of each axis what is not near a periodic face: everything, if it is not periodic; nothing, if the cutoff is
+    /// large.
     [[nodiscard]] std::array<interval<real_type>, D> between_periodic_faces(real_type cutoff) const {
         if (!(cutoff >= 0))
             detail::raise<input_error>("domain::near_periodic_face", "cutoff = " + detail::shown(cutoff),

@@ -26,18 +26,20 @@ void is_periodic_ghost(std::span<const image_shift<D>> shifts, std::span<unsigne
     for (std::size_t i = 0; i < shifts.size(); ++i) mask[i] = is_periodic_ghost(shifts[i]);
 }
 
-/// Whether particle i stands for its id on this rank: the owned one, or the first ghost (B10). In an id_map that was built
-/// from all ids, owned first, it is the one that the map finds.
+/// Whether particle i stands for its id on this rank: the owned one, or the first ghost (B10). In an id_map that was
+/// built from all ids, owned first, it is the one that the map finds.
 ///
 /// @param where  an id_map
 /// @param ids    of all particles of this rank [N]
 template <class Map>
-[[nodiscard]] bool is_owned_or_first_ghost(const Map& where, std::span<const typename Map::id_type> ids, index_t i) noexcept {
+[[nodiscard]] bool is_owned_or_first_ghost(const Map& where, std::span<const typename Map::id_type> ids,
+                                           index_t i) noexcept {
     return where.find(ids[static_cast<std::size_t>(i)]) == i;
 }
 /// mask[i] = 1 if particle i is, by batched look-ups. @throws input_error if the lengths differ.
 template <class Map>
-void is_owned_or_first_ghost(const Map& where, std::span<const typename Map::id_type> ids, std::span<unsigned char> mask) {
+void is_owned_or_first_ghost(const Map& where, std::span<const typename Map::id_type> ids,
+                             std::span<unsigned char> mask) {
     detail::check_answers("is_owned_or_first_ghost", mask.size(), ids.size());
     constexpr std::size_t block = 1024;
     index_t found[block];

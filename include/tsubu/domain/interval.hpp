@@ -12,8 +12,8 @@
 #include <type_traits>  // std::conditional_t
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
-#error "tsubu: -ffast-math (-ffinite-math-only) removes the tests for NaN and infinity that decide whose a particle is; \
-compile without it, or with -fno-finite-math-only after it"
+#error "tsubu: -ffast-math and -ffinite-math-only remove the tests for NaN and infinity that decide whose a particle is; \
+compile without them, or with -fno-finite-math-only after them"
 #endif
 
 namespace tsubu {

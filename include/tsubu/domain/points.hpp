@@ -54,15 +54,14 @@ public:
     }
     /// Any contiguous range of vec<D, Scalar>.
     template <class Rows>
-        requires std::convertible_to<Rows&&, std::span<row>>
-    points(Rows&& x) noexcept {
+    requires std::convertible_to<Rows&&, std::span<row>> points(Rows&& x)
+    noexcept {
         const std::span<row> rows(x);
         count_ = rows.size();
         for (std::size_t k = 0; k < D && !rows.empty(); ++k) start_[k] = rows.front().data() + k;
     }
     /// Points that may be written can be read.
-    points(const points<D, std::remove_const_t<Scalar>>& x) noexcept
-        requires std::is_const_v<Scalar>
+    points(const points<D, std::remove_const_t<Scalar>>& x) noexcept requires std::is_const_v<Scalar>
         : count_(x.size()), are_columns_(x.are_columns()) {
         for (std::size_t k = 0; k < D; ++k) start_[k] = x.start(k);
     }
@@ -76,9 +75,7 @@ public:
         for (std::size_t k = 0; k < D; ++k) x[k] = start_[k][i * stride()];
         return x;
     }
-    void set(std::size_t i, const vec<D, Scalar>& x) const noexcept
-        requires(!std::is_const_v<Scalar>)
-    {
+    void set(std::size_t i, const vec<D, Scalar>& x) const noexcept requires(!std::is_const_v<Scalar>) {
         for (std::size_t k = 0; k < D; ++k) start_[k][i * stride()] = x[k];
     }
     /// body(at), where at(i, k) is coordinate k of point i: which of the two storages it is, is known to the compiler

@@ -15,8 +15,8 @@
 namespace tsubu {
 
 /// The factors p of the rank count, one per axis, that give the subdomains of a box the least surface: of all
-/// factorisations the one with the least sum of the areas of a subdomain's faces; of equal ones that with most ranks along
-/// the first axis. [D]
+/// factorisations the one with the least sum of the areas of a subdomain's faces; of equal ones that with most ranks
+/// along the first axis. [D]
 ///
 /// @param extents  edge lengths of the box, above 0, in any unit.
 /// @throws input_error if ranks is 0, or an extent is not above 0 and finite.

@@ -12,12 +12,12 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/points.hpp>
 
-#include <array>      // std::array
-#include <cmath>      // std::abs
-#include <cstddef>    // std::size_t
-#include <limits>     // std::numeric_limits
-#include <span>       // std::span
-#include <string>     // std::to_string
+#include <array>    // std::array
+#include <cmath>    // std::abs
+#include <cstddef>  // std::size_t
+#include <limits>   // std::numeric_limits
+#include <span>     // std::span
+#include <string>   // std::to_string
 
 namespace tsubu {
 
@@ -60,7 +60,8 @@ public:
         detail::check_answers("subdomain::owns_extended", mask.size(), x.size());
         detail::inside(extended_, x, 0, x.size(), mask.data());
     }
-    /// Writes the indices of the points that are not owned to the front of `left`, in increasing order. @return how many.
+    /// Writes the indices of the points that are not owned to the front of `left`, in increasing order. @return how
+    /// many.
     /// @throws input_error if left is not as long as the points are many.
     std::size_t leavers(const points_type& x, std::span<index_t> left) const {
         detail::check_answers("subdomain::leavers", left.size(), x.size());
@@ -72,8 +73,8 @@ public:
         return found;
     }
 
-    /// At least d[k] away from both faces of each axis k, inside (B6 as decided). @throws input_error if a d is negative or
-    /// NaN.
+    /// At least d[k] away from both faces of each axis k, inside (B6 as decided). @throws input_error if a d is
+    /// negative or NaN.
     [[nodiscard]] bool clear_of_borders(const real_position_type& x, const real_position_type& d) const {
         return in(clear(d), x);
     }

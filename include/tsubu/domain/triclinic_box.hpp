@@ -150,8 +150,8 @@ public:
         return periods_.shortest(d);
     }
     /// How far a length reaches in the fraction of each edge: cutoff / (height of the box over the face that the edge
-    /// ends at), and a few units in the last place for the rounding of to_cell. @throws input_error if the cutoff is negative
-    /// or not finite.
+    /// ends at), and a few units in the last place for the rounding of to_cell. @throws input_error if the cutoff is
+    /// negative or not finite.
     [[nodiscard]] position_type cell_reach(Scalar cutoff) const {
         if (!(cutoff >= 0) || !detail::is_finite(cutoff))
             detail::raise<input_error>("triclinic_box::cell_reach", "the cutoff " + detail::shown(cutoff),

@@ -11,14 +11,14 @@
 #include <tsubu/domain/interval.hpp>
 
 #include <algorithm>  // std::max
-#include <cmath>     // std::abs, std::asin, std::atan2, std::cos, std::floor, std::hypot, std::nearbyint, std::sin
-#include <concepts>  // std::convertible_to, std::floating_point
-#include <cstddef>   // std::size_t
-#include <cstdint>   // std::int64_t
-#include <limits>    // std::numeric_limits
-#include <numbers>   // std::numbers::pi_v
-#include <string>    // std::to_string
-#include <vector>    // std::vector
+#include <cmath>      // std::abs, std::asin, std::atan2, std::cos, std::floor, std::hypot, std::nearbyint, std::sin
+#include <concepts>   // std::convertible_to, std::floating_point
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t
+#include <limits>     // std::numeric_limits
+#include <numbers>    // std::numbers::pi_v
+#include <string>     // std::to_string
+#include <vector>     // std::vector
 
 namespace tsubu {
 
@@ -28,9 +28,9 @@ namespace tsubu {
 template <class Field>
 inline constexpr bool rotates_with_images = false;
 template <class Field>
-    requires requires {
-        { Field::rotates_with_images } -> std::convertible_to<bool>;
-    }
+requires requires {
+    { Field::rotates_with_images } -> std::convertible_to<bool>;
+}
 inline constexpr bool rotates_with_images<Field> = Field::rotates_with_images;
 
 /// The sector of angle 2 pi / n, from the direction of x counter-clockwise, about an axis parallel to z; turned by that
@@ -170,8 +170,8 @@ public:
         if (on < 0) on += n;
         return {2 * on > n ? on - n : on, shift[1], shift[2]};
     }
-    /// How far a length reaches between two parts of the cell, along the angle, r and z. At a distance r from the axis, and
-    /// an angle t away, a point is at least r sin t from everything there, and beyond a quarter turn at least r.
+    /// How far a length reaches between two parts of the cell, along the angle, r and z. At a distance r from the axis,
+    /// and an angle t away, a point is at least r sin t from everything there, and beyond a quarter turn at least r.
     template <class Part>
     [[nodiscard]] position_type cell_reach(Scalar cutoff, const Part& a, const Part& b) const noexcept {
         const Scalar inner = (std::max)(a.lo()[1], b.lo()[1]) * (1 - 16 * epsilon);

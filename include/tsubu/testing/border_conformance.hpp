@@ -46,8 +46,8 @@ void check_border(const Border& border, const cuts<Scalar>& where, Check&& check
     for (std::size_t part = 0; part < where.parts(); ++part) {
         owned.push_back(border.owned(where, part));
         extended.push_back(border.owned_extended(where, part));
-        for (const auto x : {where.begin(part), owned[part].first, owned[part].last, extended[part].first,
-                             extended[part].last})
+        for (const auto x :
+             {where.begin(part), owned[part].first, owned[part].last, extended[part].first, extended[part].last})
             asked.push_back(x);
     }
     for (std::size_t i = asked.size(); i-- > 0;) {
@@ -63,10 +63,10 @@ void check_border(const Border& border, const cuts<Scalar>& where, Check&& check
     asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
     const auto report = [&](bool kept, const char* text, Scalar x) {
         if (kept) return check(true, std::string_view(text));
-        check(false, std::string_view(std::string(text) + "; x = " + detail::shown(x) + " of " +
-                                      detail::shown(where.parts()) + " parts from " +
-                                      detail::shown(where.whole().inside().first) + " to " +
-                                      detail::shown(where.whole().inside().last)));
+        check(false,
+              std::string_view(std::string(text) + "; x = " + detail::shown(x) + " of " + detail::shown(where.parts()) +
+                               " parts from " + detail::shown(where.whole().inside().first) + " to " +
+                               detail::shown(where.whole().inside().last)));
     };
     for (const auto x : asked) {
         std::size_t owners = 0;

@@ -92,8 +92,10 @@ template <class Scalar>
 [[nodiscard]] Scalar coordinate_between(Scalar first, Scalar last, random_stream& random) {
     if constexpr (is_lattice<Scalar>) {
         using Unsigned = std::make_unsigned_t<decltype(first.value)>;
-        const auto steps = static_cast<Unsigned>(static_cast<Unsigned>(last.value) - static_cast<Unsigned>(first.value));
-        const auto step = steps == (std::numeric_limits<Unsigned>::max)() ? random() : random.below(std::uint64_t{steps} + 1);
+        const auto steps =
+            static_cast<Unsigned>(static_cast<Unsigned>(last.value) - static_cast<Unsigned>(first.value));
+        const auto step =
+            steps == (std::numeric_limits<Unsigned>::max)() ? random() : random.below(std::uint64_t{steps} + 1);
         return first + static_cast<decltype(first.value)>(static_cast<Unsigned>(step));
     } else {
         const auto x = first + static_cast<Scalar>(random.unit()) * (last - first);
@@ -110,7 +112,8 @@ class decomposition_examiner {
     using law = testing::decomposition_law;
     using neighbors_of_rank = std::vector<neighbor_rank<D>>;
     using box_type = typename Decomposition::box_type;
-    static constexpr bool is_domain = std::same_as<box_type, std::remove_cvref_t<decltype(std::declval<box_type>().cell())>>;
+    static constexpr bool is_domain =
+        std::same_as<box_type, std::remove_cvref_t<decltype(std::declval<box_type>().cell())>>;
 
 public:
     decomposition_examiner(const Decomposition& parts, std::uint64_t seed, Check& check)
@@ -127,7 +130,8 @@ public:
                 const auto lo = subdomains_[rank].lo()[k];
                 const auto hi = subdomains_[rank].hi()[k];
                 middle[k] = at_real(k, std::midpoint(lo, hi));
-                along[k] = {at_real(k, lo), at_real(k, hi), cell().along(k).inside().first, cell().along(k).inside().last};
+                along[k] = {at_real(k, lo), at_real(k, hi), cell().along(k).inside().first,
+                            cell().along(k).inside().last};
             }
             for (std::size_t k = 0; k < D; ++k) {
                 // Where owner changes, whatever the subdomain says about its faces.
@@ -163,7 +167,8 @@ public:
                     position x = random_point([&](std::size_t j) { return cell().along(j).inside(); });
                     x[k] = bad;
                     for (const auto& mine : subdomains_)
-                        expect(!mine.owns(x) && !mine.owns_extended(x), law::not_finite, [&] { return shown_point(x); });
+                        expect(!mine.owns(x) && !mine.owns_extended(x), law::not_finite,
+                               [&] { return shown_point(x); });
                 }
         }
     }
@@ -211,8 +216,8 @@ private:
         expect(owner < parts_.ranks() && subdomains_[owner].owns_extended(x), law::owner, found);
         expect(!inside || (owner < parts_.ranks() && subdomains_[owner].owns(x)), law::owner_inside, found);
     }
-    /// All points that were asked one by one, at once: the answers of the ranks from `first` to before `end`, and of owner,
-    /// must be the same.
+    /// All points that were asked one by one, at once: the answers of the ranks from `first` to before `end`, and of
+    /// owner, must be the same.
     void examine_batch(std::size_t first, std::size_t end) {
         const auto count = asked_.size();
         std::array<std::vector<scalar>, D> column;
@@ -294,9 +299,7 @@ private:
         const auto stride = ranks / most_ranks + 1;
         for (std::size_t rank = random_.below(stride); rank < ranks; rank += stride) {
             const auto& found = known[rank];
-            const auto at = [&] {
-                return "rank " + shown(rank) + " of " + shown(ranks) + ", cutoff " + shown(cutoff);
-            };
+            const auto at = [&] { return "rank " + shown(rank) + " of " + shown(ranks) + ", cutoff " + shown(cutoff); };
             bool increase = true;
             for (std::size_t i = 1; i < found.size(); ++i) increase = increase && found[i - 1] < found[i];
             expect(increase, law::increasing, at);
@@ -341,7 +344,9 @@ private:
             if (other == parts_.ranks()) continue;  // law 1 is broken, and was told
             const auto image = same_image(shift);
             const bool itself = other == rank && image == image_shift<D>{};
-            expect(itself || std::binary_search(found.begin(), found.end(), neighbor_rank<D>{static_cast<rank_t>(other), image}), law::complete,
+            expect(itself || std::binary_search(found.begin(), found.end(),
+                                                neighbor_rank<D>{static_cast<rank_t>(other), image}),
+                   law::complete,
                    [&, y = y] { return "rank " + shown(rank) + ", cutoff " + shown(cutoff) + ", " + shown_point(y); });
         }
     }
@@ -361,7 +366,8 @@ private:
         if (k < D) {
             const auto& along = parts_.whole().real_axis(k);
             const auto most = along.is_periodic() ? static_cast<std::int64_t>(cutoff / along.length()) + 2 : 0;
-            for (shift[k] = -most; shift[k] <= most; ++shift[k]) compare_images(found, rank, other, cutoff, shift, k + 1);
+            for (shift[k] = -most; shift[k] <= most; ++shift[k])
+                compare_images(found, rank, other, cutoff, shift, k + 1);
             return;
         }
         if (other == rank && shift == image_shift<D>{}) return;
@@ -375,8 +381,8 @@ private:
             const auto face = [&](real x) { return static_cast<long double>(x) / unit; };
             const auto& a = subdomains_[rank];
             const auto& b = subdomains_[other];
-            const long double gap = (std::max)({face(a.lo()[j]) - face(b.hi()[j]) - moved,
-                                                face(b.lo()[j]) - face(a.hi()[j]) + moved, 0.0L});
+            const long double gap = (std::max)(
+                {face(a.lo()[j]) - face(b.hi()[j]) - moved, face(b.lo()[j]) - face(a.hi()[j]) + moved, 0.0L});
             square += gap * gap;
             rounding = (std::max)({rounding, moved, -moved, std::abs(face(along.lo())), std::abs(face(along.hi()))});
         }
@@ -384,11 +390,13 @@ private:
         const long double distance = std::sqrt(square);
         const long double wanted = cutoff > 0 ? 1U : 0U;
         const auto what = [&] {
-            auto text = "rank " + shown(rank) + " of " + shown(parts_.ranks()) + ", neighbour " + shown(other) + " shifted by";
+            auto text =
+                "rank " + shown(rank) + " of " + shown(parts_.ranks()) + ", neighbour " + shown(other) + " shifted by";
             for (const auto n : shift) text += ' ' + shown(n);
             return text + ", cutoff " + shown(cutoff) + ", distance " + shown(static_cast<double>(distance)) + " of it";
         };
-        const bool listed = std::binary_search(found.begin(), found.end(), neighbor_rank<D>{static_cast<rank_t>(other), shift});
+        const bool listed =
+            std::binary_search(found.begin(), found.end(), neighbor_rank<D>{static_cast<rank_t>(other), shift});
         expect(listed || distance + rounding > wanted, law::complete, what);
         expect(!listed || distance <= wanted + rounding, law::near, what);
     }

@@ -25,8 +25,8 @@ constexpr double scales[] = {1e-300, 1e-150, 1e-13, 1e-7, 1, 1e5, 134217728, 1e9
 template <class Scalar>
 long double ulps_off(const axis<Scalar>& along, Scalar x) {
     const auto [position, shift] = along.wrap(x);
-    const long double back = static_cast<long double>(position) +
-                             static_cast<long double>(shift) * static_cast<long double>(along.length());
+    const long double back =
+        static_cast<long double>(position) + static_cast<long double>(shift) * static_cast<long double>(along.length());
     const auto size = std::max({std::abs(x), std::abs(along.lo()), std::abs(along.hi())});
     const long double ulp = static_cast<long double>(size) - std::nextafter(size, Scalar{0});
     return std::abs(back - static_cast<long double>(x)) / ulp;
@@ -36,7 +36,8 @@ template <class Scalar>
 void check_wrapped(const axis<Scalar>& along, Scalar x) {
     const auto [position, shift] = along.wrap(x);
     INFO("x = " << tsubu::detail::shown(x) << " in " << tsubu::detail::shown(along.lo()) << " .. "
-                << tsubu::detail::shown(along.hi()) << " became " << tsubu::detail::shown(position) << ", shift " << shift);
+                << tsubu::detail::shown(along.hi()) << " became " << tsubu::detail::shown(position) << ", shift "
+                << shift);
     CHECK((along.lo() <= position && position < along.hi()));
     const auto again = along.wrap(position);
     CHECK((again.position == position && again.shift == 0));
@@ -85,14 +86,13 @@ TEST_CASE("an axis without length, inverted or not finite is refused", "[domain]
     const auto message = [](double lo, double hi) {
         return thrown<tsubu::input_error>([&] { static_cast<void>(axis<double>(lo, hi, false)); });
     };
-    for (const auto& [lo, hi, what] : {std::tuple{1.0, 1.0, "lo = 1 is not below hi = 1"},
-                                       std::tuple{2.0, -1.5, "lo = 2 is not below hi = -1.5"},
-                                       std::tuple{0.0, -0.0, "is not below"},
-                                       std::tuple{not_a_number, 1.0, "the face nan is not a finite number"},
-                                       std::tuple{0.0, not_a_number, "the face nan is not a finite number"},
-                                       std::tuple{0.0, infinity, "the face inf is not a finite number"},
-                                       std::tuple{-infinity, 0.0, "the face -inf is not a finite number"},
-                                       std::tuple{-1e308, 1e308, "is more than the scalar holds; scale the unit"}}) {
+    for (const auto& [lo, hi, what] :
+         {std::tuple{1.0, 1.0, "lo = 1 is not below hi = 1"}, std::tuple{2.0, -1.5, "lo = 2 is not below hi = -1.5"},
+          std::tuple{0.0, -0.0, "is not below"}, std::tuple{not_a_number, 1.0, "the face nan is not a finite number"},
+          std::tuple{0.0, not_a_number, "the face nan is not a finite number"},
+          std::tuple{0.0, infinity, "the face inf is not a finite number"},
+          std::tuple{-infinity, 0.0, "the face -inf is not a finite number"},
+          std::tuple{-1e308, 1e308, "is more than the scalar holds; scale the unit"}}) {
         const auto text = message(lo, hi);
         INFO(text);
         CHECK(says(text, "tsubu::axis: "));
@@ -229,8 +229,8 @@ TEST_CASE("any finite number wraps into any box", "[domain][wrap][I8]") {
 TEST_CASE("what is not finite is an error, on every kind of axis", "[domain][wrap][F4]") {
     for (const bool periodic : {false, true})
         for (const double x : {not_a_number, infinity, -infinity}) {
-            const auto text = thrown<tsubu::input_error>(
-                [&] { static_cast<void>(axis<double>(0, 1, periodic).wrap(x)); });
+            const auto text =
+                thrown<tsubu::input_error>([&] { static_cast<void>(axis<double>(0, 1, periodic).wrap(x)); });
             INFO(text);
             CHECK(says(text, "tsubu::axis::wrap: the coordinate " + tsubu::detail::shown(x) + " is not finite"));
             CHECK(says(text, "; find the particle"));
@@ -259,7 +259,8 @@ TEST_CASE("the nearest image of d is the opposite of that of -d", "[domain][mini
             CHECK(std::abs(image) <= length / 2);
             CHECK(std::remainder(d - image, length) == Approx(0).margin(std::abs(d) * 1e-14));
         };
-        for (const double periods : {0.5, 0.5 - 0x1p-54, 0.5 + 0x1p-53, 1.0, 1.5, 1.6, 2.5, 16.1, 1e6 + 0.5}) check(periods * length);
+        for (const double periods : {0.5, 0.5 - 0x1p-54, 0.5 + 0x1p-53, 1.0, 1.5, 1.6, 2.5, 16.1, 1e6 + 0.5})
+            check(periods * length);
         if (length < 1e200) check(1e30 * length);
         for (int i = 0; i < 500; ++i) check((random.unit() - 0.5) * 8 * length);
     }
@@ -269,7 +270,7 @@ TEST_CASE("half a period stays half a period, either sign", "[domain][minimum_im
     const axis<double> unit(0, 1, true);
     CHECK(unit.minimum_image(0.5) == 0.5);
     CHECK(unit.minimum_image(-0.5) == -0.5);
-    CHECK(unit.minimum_image(1.5) == -0.5);   // 1.5 - 2
+    CHECK(unit.minimum_image(1.5) == -0.5);  // 1.5 - 2
     CHECK(unit.minimum_image(-1.5) == 0.5);
     CHECK(unit.minimum_image(1.6) == Approx(-0.4));
     CHECK(unit.minimum_image(16.1) == Approx(0.1));

@@ -79,7 +79,8 @@ TEST_CASE("without a sample the volume is halved", "[domain][bisection]") {
 TEST_CASE("points outside the box, or not finite, count for nothing", "[domain][bisection]") {
     auto sample = heap(1000);
     const bisection_decomposition<3> clean(cube, 7, sample);
-    for (const double bad : {-1.0, 2.0, 1e300, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const double bad :
+         {-1.0, 2.0, 1e300, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         for (std::size_t k = 0; k < 3; ++k) {
             vec<3> x{0.5, 0.5, 0.5};
             x[k] = bad;
@@ -116,7 +117,8 @@ TEST_CASE("all particles in one point, or beside a face, leave room for every ra
 TEST_CASE("as many ranks as there are points, and no more", "[domain][bisection][input]") {
     constexpr double step = std::numeric_limits<double>::denorm_min();
     const domain<1> four{{0}, {4 * step}, {.periodic = {true}}};
-    for (std::size_t ranks = 1; ranks <= 4; ++ranks) CHECK(bisection_decomposition<1>(four, ranks, {}).ranks() == ranks);
+    for (std::size_t ranks = 1; ranks <= 4; ++ranks)
+        CHECK(bisection_decomposition<1>(four, ranks, {}).ranks() == ranks);
     const bisection_decomposition<1> full(four, 4, {});
     for (std::size_t rank = 0; rank < 4; ++rank) CHECK(full.owner({static_cast<double>(rank) * step}) == rank);
     const auto text = thrown<tsubu::input_error>([&] { bisection_decomposition<1>(four, 5, {}); });
@@ -139,7 +141,8 @@ TEST_CASE("bad samples are refused", "[domain][bisection][input]") {
     CHECK(says(message(2, {1, 1, std::nan("")}), "weight 2 is nan"));
     CHECK(says(message(2, {std::numeric_limits<double>::infinity(), 1, 1}), "weight 0 is inf"));
     const bisection_decomposition<3> parts(cube, 2, sample);
-    CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(parts.subdomain(2)); }), "rank 2 of 2; ranks count from 0"));
+    CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(parts.subdomain(2)); }),
+               "rank 2 of 2; ranks count from 0"));
     for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
         CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(parts.neighbors(0, bad)); }),
                    "tsubu::bisection_decomposition::neighbors: the cutoff"));

@@ -62,7 +62,8 @@ TEST_CASE("a point beyond the box has one extended owner", "[domain][brick][B4][
     CHECK(three.owner({1e300}) == 2);
 }
 
-TEST_CASE("x at the upper face: of a closed axis the last rank's, of a periodic one the first's", "[domain][brick][B3][F3]") {
+TEST_CASE("x at the upper face: of a closed axis the last rank's, of a periodic one the first's",
+          "[domain][brick][B3][F3]") {
     for (const double hi : {1.0, 134217728.0, 1e9, 2e-13, 1e-7}) {
         const brick_decomposition<1> closed({{0}, {hi}}, 4);
         CHECK(closed.subdomain(3).owns({hi}));
@@ -81,7 +82,8 @@ TEST_CASE("two ranks on a periodic axis meet at both faces", "[domain][brick][ne
     CHECK(two.neighbors(1, 0.1) == std::vector<neighbor_rank<1>>{{0, {0}}, {0, {1}}});
 }
 
-TEST_CASE("one rank on a periodic axis is its own neighbour, shifted; on a closed one alone", "[domain][brick][neighbors][F4]") {
+TEST_CASE("one rank on a periodic axis is its own neighbour, shifted; on a closed one alone",
+          "[domain][brick][neighbors][F4]") {
     const brick_decomposition<1> periodic({{0}, {1}, {.periodic = {true}}}, 1);
     CHECK(periodic.neighbors(0, 0) == std::vector<neighbor_rank<1>>{{0, {-1}}, {0, {1}}});
     CHECK(periodic.neighbors(0, 0.6) == std::vector<neighbor_rank<1>>{{0, {-1}}, {0, {1}}});
@@ -119,14 +121,17 @@ TEST_CASE("a thin axis that is not periodic does not limit the cutoff", "[domain
     CHECK(brick_decomposition<3>(film, grid3{4, 4, 1}).neighbors(0, 0.1).size() == 8);
 }
 
-TEST_CASE("a cutoff that is negative, not a number or too many periods is refused", "[domain][brick][neighbors][input]") {
+TEST_CASE("a cutoff that is negative, not a number or too many periods is refused",
+          "[domain][brick][neighbors][input]") {
     const brick_decomposition<3> bricks(periodic_cube, 4);
     for (const double bad : {-1.0, -1e-300, not_a_number, infinity}) {
         const auto text = thrown<tsubu::input_error>([&] { static_cast<void>(bricks.neighbors(0, bad)); });
         INFO(text);
-        CHECK(says(text, "tsubu::brick_decomposition::neighbors: the cutoff " + tsubu::detail::shown(bad) + "; give a finite"));
+        CHECK(says(text, "tsubu::brick_decomposition::neighbors: the cutoff " + tsubu::detail::shown(bad) +
+                             "; give a finite"));
     }
-    CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(bricks.neighbors(0, 1e7)); }), "more than 2^20 periods"));
+    CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(bricks.neighbors(0, 1e7)); }),
+               "more than 2^20 periods"));
 }
 
 TEST_CASE("a rank that does not exist is refused", "[domain][brick][input]") {

@@ -98,8 +98,8 @@ TEST_CASE("where the owner by a formula is the part beside", "[domain][B3][F3]")
     const auto by_formula = [](double x, std::size_t parts) {
         return static_cast<std::size_t>(x / 7 * static_cast<double>(parts));
     };
-    for (const auto& [parts, x] : {std::pair{3U, 2.333333333333333}, std::pair{3U, 4.6666666666666661},
-                                   std::pair{5U, 1.3999999999999999}}) {
+    for (const auto& [parts, x] :
+         {std::pair{3U, 2.333333333333333}, std::pair{3U, 4.6666666666666661}, std::pair{5U, 1.3999999999999999}}) {
         const cuts<double> where(seven, parts);
         CHECK(one_part_has(where, x));
         CHECK(where.owned(where.part_of(x)).contains(x));
@@ -200,8 +200,8 @@ TEST_CASE("parts that cannot be told apart are refused", "[domain][input][F3]") 
     CHECK(says(message(axis<double>(0, 1, true), std::size_t{0}), "an axis in 0 parts; divide it into at least 1"));
     const axis<double> unit(0, 1, true);
     using list = std::vector<double>;
-    for (const auto& given : {list{0}, list{1}, list{-0.1}, list{0.5, 0.5}, list{0.6, 0.5}, list{not_a_number}, list{0.5, not_a_number, 0.7},
-                              list{std::numeric_limits<double>::infinity()}, list{1.5}}) {
+    for (const auto& given : {list{0}, list{1}, list{-0.1}, list{0.5, 0.5}, list{0.6, 0.5}, list{not_a_number},
+                              list{0.5, not_a_number, 0.7}, list{std::numeric_limits<double>::infinity()}, list{1.5}}) {
         const auto text = message(unit, given);
         INFO(text);
         CHECK(says(text, "tsubu::cuts: given cuts: part "));
@@ -254,7 +254,8 @@ TEST_CASE("every coordinate of a small axis, every number of parts that it admit
     for (std::size_t parts = 1; parts <= 256; ++parts) {
         const cuts<lattice<std::int8_t>> where(around, parts);
         bool shared = true;
-        for (int x = -128; x < 128; ++x) shared = shared && one_part_has(where, lattice<std::int8_t>{static_cast<std::int8_t>(x)});
+        for (int x = -128; x < 128; ++x)
+            shared = shared && one_part_has(where, lattice<std::int8_t>{static_cast<std::int8_t>(x)});
         CHECK(shared);
     }
 }

@@ -55,7 +55,9 @@ TEST_CASE("wrap goes along every axis", "[domain][wrap]") {
         for (const double bad : {not_a_number, infinity, -infinity}) {
             vec<3> x{0.5, 0.5, 0.5};
             x[k] = bad;
-            CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(box.wrap(x)); }), "tsubu::domain::wrap: the coordinate " + tsubu::detail::shown(bad) + " on axis " + std::to_string(k) + " is not finite"));
+            CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(box.wrap(x)); }),
+                       "tsubu::domain::wrap: the coordinate " + tsubu::detail::shown(bad) + " on axis " +
+                           std::to_string(k) + " is not finite"));
         }
 }
 
@@ -65,7 +67,8 @@ TEST_CASE("many points are wrapped as each is, and their shifts add up", "[domai
     std::vector<vec<3>> rows(3000);
     for (auto& x : rows)
         for (std::size_t k = 0; k < 3; ++k)
-            x[k] = box.along(k).lo() + (random.below(50) == 0 ? 1e6 * (random.unit() - 0.5) : 1.2 * random.unit() - 0.1);
+            x[k] =
+                box.along(k).lo() + (random.below(50) == 0 ? 1e6 * (random.unit() - 0.5) : 1.2 * random.unit() - 0.1);
     std::array<std::vector<double>, 3> column;
     for (const auto& x : rows)
         for (std::size_t k = 0; k < 3; ++k) column[k].push_back(x[k]);
@@ -196,7 +199,8 @@ TEST_CASE("near a periodic face, on either side of it", "[domain][B9]") {
     for (const double bad : {-1.0, -1e-300, not_a_number}) {
         const auto text = thrown<tsubu::input_error>([&] { static_cast<void>(box.near_periodic_face({0, 0}, bad)); });
         INFO(text);
-        CHECK(says(text, "tsubu::domain::near_periodic_face: cutoff = " + tsubu::detail::shown(bad) + "; give a length"));
+        CHECK(
+            says(text, "tsubu::domain::near_periodic_face: cutoff = " + tsubu::detail::shown(bad) + "; give a length"));
     }
 }
 

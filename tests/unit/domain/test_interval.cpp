@@ -31,8 +31,8 @@ TEMPLATE_TEST_CASE("the numbers beside a number are those of nextafter", "[domai
     }
     tsubu::random_stream random(1);
     for (int i = 0; i < 1000; ++i) {
-        const auto place = static_cast<std::int64_t>(
-            random.below(static_cast<std::uint64_t>(detail::ordinal((limits::max)()))));
+        const auto place =
+            static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(detail::ordinal((limits::max)()))));
         check(detail::at_ordinal<TestType>(place));
         check(detail::at_ordinal<TestType>(-place));
     }

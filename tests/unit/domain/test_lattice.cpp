@@ -58,7 +58,8 @@ TEMPLATE_TEST_CASE("real positions round to the nearest coordinate", "[domain][l
     CHECK(along.from_real(1).position == lattice<TestType>{0});
     CHECK(along.from_real(3).position == lattice<TestType>{lowest<TestType>});
     CHECK(along.from_real(3).shift == 1);
-    CHECK(along.from_real(-1 - 4 * 0x1p-40).shift == (sizeof(TestType) == 4 ? 0 : -1));  // rounds up to the face, or not
+    CHECK(along.from_real(-1 - 4 * 0x1p-40).shift ==
+          (sizeof(TestType) == 4 ? 0 : -1));  // rounds up to the face, or not
     const double half_step = 2 / steps<TestType>;
     tsubu::random_stream random(3);
     for (int i = 0; i < 2000; ++i) {

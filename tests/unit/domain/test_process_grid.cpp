@@ -69,9 +69,12 @@ TEST_CASE("no other grid has less surface", "[domain][process_grid]") {
 }
 
 TEST_CASE("no ranks and no box are refused", "[domain][process_grid][input]") {
-    CHECK(says(thrown<tsubu::input_error>([] { static_cast<void>(process_grid<2>(0, vec<2>{1, 1})); }),
+    CHECK(says(thrown<tsubu::input_error>([] {
+                   static_cast<void>(process_grid<2>(0, vec<2>{1, 1}));
+               }),
                "tsubu::process_grid: 0 ranks; ask for at least 1"));
-    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         const auto text = thrown<tsubu::input_error>([&] { static_cast<void>(process_grid<2>(2, vec<2>{1, bad})); });
         INFO(text);
         CHECK(says(text, "the extent " + tsubu::detail::shown(bad) + " of axis 1; give finite lengths above 0"));

@@ -12,8 +12,8 @@ using tsubu::axis;
 using tsubu::detail::reaching_images;
 using tsubu::detail::stretch;
 
-TEMPLATE_TEST_CASE("two stretches reach one another or neither does, at the last bit of the cutoff", "[domain][neighbors][F4]",
-                   double, float) {
+TEMPLATE_TEST_CASE("two stretches reach one another or neither does, at the last bit of the cutoff",
+                   "[domain][neighbors][F4]", double, float) {
     tsubu::random_stream random(41);
     for (int i = 0; i < 3000; ++i) {
         const auto lo = static_cast<TestType>(random.unit() - 0.5);
@@ -26,7 +26,8 @@ TEMPLATE_TEST_CASE("two stretches reach one another or neither does, at the last
         const auto mine = some_stretch();
         const auto other = some_stretch();
         for (const auto& image : reaching_images("test", along, mine, other, along.length() * 2))
-            for (const auto cutoff : {image.gap, std::nextafter(image.gap, TestType{0}), std::nextafter(image.gap, TestType{9})}) {
+            for (const auto cutoff :
+                 {image.gap, std::nextafter(image.gap, TestType{0}), std::nextafter(image.gap, TestType{9})}) {
                 const auto there = reaching_images("test", along, mine, other, cutoff);
                 const auto back = reaching_images("test", along, other, mine, cutoff);
                 REQUIRE(there.size() == back.size());

@@ -51,7 +51,8 @@ domain<D, Scalar> some_box() {
 
 /// Inside, outside, on faces, beside them, and not finite.
 template <std::size_t D, class Scalar>
-std::vector<vec<D, Scalar>> mixed_points(const tsubu::subdomain<D, Scalar>& mine, std::size_t count, std::uint64_t seed) {
+std::vector<vec<D, Scalar>> mixed_points(const tsubu::subdomain<D, Scalar>& mine, std::size_t count,
+                                         std::uint64_t seed) {
     tsubu::random_stream random(seed);
     std::vector<vec<D, Scalar>> points(count);
     for (auto& x : points)
@@ -62,8 +63,8 @@ std::vector<vec<D, Scalar>> mixed_points(const tsubu::subdomain<D, Scalar>& mine
             } else {
                 using limits = std::numeric_limits<Scalar>;
                 const Scalar faces[] = {mine.lo()[k], mine.hi()[k], Scalar{0}, Scalar{1}};
-                const Scalar bad[] = {limits::quiet_NaN(), limits::infinity(), -limits::infinity(), (limits::max)(),
-                                      limits::lowest(), limits::denorm_min(), -Scalar{0}};
+                const Scalar bad[] = {limits::quiet_NaN(), limits::infinity(),   -limits::infinity(), (limits::max)(),
+                                      limits::lowest(),    limits::denorm_min(), -Scalar{0}};
                 const auto kind = random.below(16);
                 const auto face = faces[random.below(4)];
                 x[k] = kind == 0   ? face
@@ -124,8 +125,8 @@ void batched_is_single() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("many points at once are as each alone, for every instruction set", "[domain][B3][B4][batch]", double,
-                   float, lattice<std::int32_t>, lattice<std::int64_t>) {
+TEMPLATE_TEST_CASE("many points at once are as each alone, for every instruction set", "[domain][B3][B4][batch]",
+                   double, float, lattice<std::int32_t>, lattice<std::int64_t>) {
     batched_is_single<1, TestType>();
     batched_is_single<2, TestType>();
     batched_is_single<3, TestType>();
@@ -133,7 +134,10 @@ TEMPLATE_TEST_CASE("many points at once are as each alone, for every instruction
 
 TEST_CASE("what is not a number leaves, and is not lost", "[domain][B3][batch][F4]") {
     const auto mine = unit_cube();
-    const std::vector<vec<3>> x = {{0.5, 0.5, 0.5}, {not_a_number, 0.5, 0.5}, {0.5, infinity, 0.5}, {0.5, 0.5, -infinity}};
+    const std::vector<vec<3>> x = {{0.5, 0.5, 0.5},
+                                   {not_a_number, 0.5, 0.5},
+                                   {0.5, infinity, 0.5},
+                                   {0.5, 0.5, -infinity}};
     std::vector<index_t> left(x.size());
     REQUIRE(mine.leavers(x, left) == 3);
     CHECK((left[0] == 1 && left[1] == 2 && left[2] == 3));
@@ -148,7 +152,8 @@ TEST_CASE("spans of different length are refused", "[domain][batch][input]") {
     INFO(text);
     CHECK(says(text, "tsubu::subdomain::owns: 3 answers for 4 points; give spans of equal length"));
     CHECK(says(thrown<tsubu::input_error>([&] { mine.owns_extended(x, mask); }), "subdomain::owns_extended"));
-    CHECK(says(thrown<tsubu::input_error>([&] { mine.clear_of_borders(x, 0.1, mask); }), "subdomain::clear_of_borders"));
+    CHECK(
+        says(thrown<tsubu::input_error>([&] { mine.clear_of_borders(x, 0.1, mask); }), "subdomain::clear_of_borders"));
     std::vector<index_t> left(5);
     CHECK(says(thrown<tsubu::input_error>([&] { mine.leavers(x, left); }), "subdomain::leavers: 5 answers for 4"));
     std::vector<double> distances(3);
@@ -187,10 +192,12 @@ TEST_CASE("clear of borders: far enough from both faces, inside", "[domain][B6][
     CHECK_FALSE(mine.clear_of_borders({0.5, not_a_number, 0.5}, 0));
     CHECK_FALSE(mine.clear_of_borders({0.5, 0.5, 0.5}, infinity));
     for (const double bad : {-1.0, -1e-300, not_a_number}) {
-        const auto text = thrown<tsubu::input_error>(
-            [&] { static_cast<void>(mine.clear_of_borders({0.5, 0.5, 0.5}, vec<3>{0, bad, 0})); });
+        const auto text = thrown<tsubu::input_error>([&] {
+            static_cast<void>(mine.clear_of_borders({0.5, 0.5, 0.5}, vec<3>{0, bad, 0}));
+        });
         INFO(text);
-        CHECK(says(text, "tsubu::subdomain::clear_of_borders: the distance " + tsubu::detail::shown(bad) + " on axis 1; give"));
+        CHECK(says(text, "tsubu::subdomain::clear_of_borders: the distance " + tsubu::detail::shown(bad) +
+                             " on axis 1; give"));
     }
 }
 

@@ -95,7 +95,8 @@ TEMPLATE_TEST_CASE("of 1 to 7 bricks of the sector exactly one owns a point insi
                     const auto y = body.wrap(x).position;
                     for (const auto& point : {x, y}) {
                         std::size_t owners = 0;
-                        for (std::size_t rank = 0; rank < ranks; ++rank) owners += parts.subdomain(rank).owns(point) ? 1U : 0U;
+                        for (std::size_t rank = 0; rank < ranks; ++rank)
+                            owners += parts.subdomain(rank).owns(point) ? 1U : 0U;
                         REQUIRE(owners == (body.contains(point) ? 1U : 0U));
                         if (owners == 1) REQUIRE(parts.subdomain(parts.owner(point)).owns(point));
                     }

@@ -25,8 +25,8 @@ inline void check_answers(const char* where, std::size_t answers, std::size_t po
                            "give spans of equal length");
 }
 
-/// out[i] = answer(i) for i < count. The answers of a block, whose length is fixed, go to memory that nothing else points
-/// to: so a compiler vectorises the loop without being asked for more than -O2.
+/// out[i] = answer(i) for i < count. The answers of a block, whose length is fixed, go to memory that nothing else
+/// points to: so a compiler vectorises the loop without being asked for more than -O2.
 template <class Answer, class Function>
 [[gnu::always_inline]] inline void each_point_loop(std::size_t count, Answer* out, Function answer) noexcept {
     constexpr std::size_t block = 64;
@@ -73,16 +73,17 @@ void inside(const std::array<interval<Scalar>, D>& box, const points<D, const Sc
         last[k] = comparable(box[k].last);
     }
     x.visit([&](auto at) {
-        each_point(count, mask, [=](std::size_t i) __attribute__((always_inline)) {
-            bool is_inside = true;
-            for (std::size_t k = 0; k < D; ++k) {
-                const auto coordinate = comparable(at(begin + i, k));
-                const bool from = coordinate >= first[k];
-                const bool to = coordinate <= last[k];
-                is_inside &= from & to;
-            }
-            return static_cast<unsigned char>(is_inside);
-        });
+        each_point(
+            count, mask, [=](std::size_t i) __attribute__((always_inline)) {
+                bool is_inside = true;
+                for (std::size_t k = 0; k < D; ++k) {
+                    const auto coordinate = comparable(at(begin + i, k));
+                    const bool from = coordinate >= first[k];
+                    const bool to = coordinate <= last[k];
+                    is_inside &= from & to;
+                }
+                return static_cast<unsigned char>(is_inside);
+            });
     });
 }
 

@@ -34,8 +34,8 @@ struct stretch {
 template <class Scalar>
 [[nodiscard]] auto real_stretch(const axis<Scalar>& along, const interval<Scalar>& part) noexcept {
     const bool is_last = part.last == along.inside().last;
-    return stretch<typename axis<Scalar>::real_type>{
-        along.to_real(part.first), is_last ? along.real().hi() : along.to_real(after(part.last))};
+    return stretch<typename axis<Scalar>::real_type>{along.to_real(part.first),
+                                                     is_last ? along.real().hi() : along.to_real(after(part.last))};
 }
 
 /// @throws input_error if there is no such rank.
@@ -59,12 +59,12 @@ struct reaching_image {
     Real gap;
 };
 
-/// All shifts n with [other.lo + n L, other.hi + n L] within the reach of mine, in increasing order. Rounding may let in an
-/// image that is a few units in the last place too far, and keeps out none.
+/// All shifts n with [other.lo + n L, other.hi + n L] within the reach of mine, in increasing order. Rounding may let
+/// in an image that is a few units in the last place too far, and keeps out none.
 /// @throws input_error if the reach is more than 2^20 periods.
 template <class Real>
 [[nodiscard]] std::vector<reaching_image<Real>> reaching_images(const char* where, const axis<Real>& along,
-                                                               stretch<Real> mine, stretch<Real> other, Real reach) {
+                                                                stretch<Real> mine, stretch<Real> other, Real reach) {
     constexpr Real slack = 8 * std::numeric_limits<Real>::epsilon();
     std::vector<reaching_image<Real>> found;
     const auto try_shift = [&](std::int64_t n) {
@@ -81,8 +81,9 @@ template <class Real>
         return found;
     }
     if (reach / along.length() > static_cast<Real>(1 << 20))
-        raise<input_error>(where, "the cutoff reaches " + shown(reach) + " along an axis, more than 2^20 periods of " +
-                                      shown(along.length()),
+        raise<input_error>(where,
+                           "the cutoff reaches " + shown(reach) + " along an axis, more than 2^20 periods of " +
+                               shown(along.length()),
                            "take a smaller cutoff, or a larger box");
     const auto most = static_cast<std::int64_t>(std::floor(reach / along.length())) + 2;
     for (std::int64_t n = -most; n <= most; ++n) try_shift(n);
@@ -135,7 +136,8 @@ template <class Decomposition, class Real>
     check_cutoff(where, cutoff);
     vec<Decomposition::dimension, Real> reach{};
     reach.fill(cutoff);
-    return neighbors_within(where, parts.whole(), parts, rank, [&](const auto&, const auto&) { return reach; }, true);
+    return neighbors_within(
+        where, parts.whole(), parts, rank, [&](const auto&, const auto&) { return reach; }, true);
 }
 
 }  // namespace tsubu::detail

@@ -8,6 +8,8 @@
 #include <tsubu/domain/bisection_decomposition.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -142,11 +144,60 @@ TEST_CASE("given cuts, very uneven, keep all laws", "[domain][conformance][F3]")
     CHECK_KEPT(seen);
 }
 
-TEST_CASE("ten million random points have one owner each", "[domain][conformance][slow][I6][I7]") {
-    for (const std::size_t ranks : {3U, 8U, 24U, 64U})
-        for_both(box_of_size<3, double>(1, 5), ranks, [&](const auto& parts) {
-            ledger seen;
-            tsubu::testing::check_partition(parts, ranks, 300'000, seen);
-            CHECK_KEPT(seen);
-        });
+/// Sums over all ranks of what they own of many random points, two thirds of them inside.
+template <class Scalar, class Decomposition>
+void check_random_points(const Decomposition& parts, std::size_t points) {
+    constexpr std::size_t block = 1 << 14;
+    std::array<std::vector<Scalar>, 3> column;
+    typename tsubu::points<3, const Scalar>::columns columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        column[k].resize(block);
+        columns[k] = column[k];
+    }
+    std::vector<tsubu::subdomain<3, Scalar>> mine;
+    for (std::size_t rank = 0; rank < parts.ranks(); ++rank) mine.push_back(parts.subdomain(rank));
+    std::vector<unsigned char> mask(block);
+    std::vector<unsigned char> inside(block);
+    std::vector<unsigned char> owners(block);
+    std::vector<unsigned char> extended(block);
+    std::vector<tsubu::rank_t> owner(block);
+    tsubu::random_stream random(parts.ranks());
+    std::size_t wrong = 0;
+    for (std::size_t done = 0; done < points; done += block) {
+        for (std::size_t k = 0; k < 3; ++k)
+            for (auto& x : column[k]) {
+                if constexpr (tsubu::is_lattice<Scalar>)
+                    x = {static_cast<decltype(x.value)>(random())};
+                else
+                    x = parts.whole().along(k).lo() +
+                        static_cast<Scalar>(random.unit() * 1.14 - 0.07) * parts.whole().along(k).length();
+            }
+        parts.whole().contains(columns, inside);
+        parts.owner(columns, owner);
+        owners.assign(block, 0);
+        extended.assign(block, 0);
+        for (std::size_t rank = 0; rank < parts.ranks(); ++rank) {
+            mine[rank].owns(columns, mask);
+            for (std::size_t i = 0; i < block; ++i) owners[i] = static_cast<unsigned char>(owners[i] + mask[i]);
+            mine[rank].owns_extended(columns, mask);
+            for (std::size_t i = 0; i < block; ++i) {
+                extended[i] = static_cast<unsigned char>(extended[i] + mask[i]);
+                wrong += (mask[i] != 0) != (owner[i] == rank) ? 1U : 0U;
+            }
+        }
+        for (std::size_t i = 0; i < block; ++i) wrong += owners[i] != inside[i] || extended[i] != 1 ? 1U : 0U;
+    }
+    CHECK(wrong == 0);
+}
+
+TEMPLATE_TEST_CASE("a hundred million random points have one owner each", "[domain][conformance][slow][I6][I7]", double,
+                   float, lattice<std::int32_t>, lattice<std::int64_t>) {
+#if defined(NDEBUG)
+    constexpr std::size_t points = 100'000'000;
+#else
+    constexpr std::size_t points = 1'000'000;
+#endif
+    const auto box = box_of_size<3, TestType>(1, 5);
+    check_random_points<TestType>(brick_decomposition<3, TestType>(box, 12), points / 2);
+    check_random_points<TestType>(bisection_decomposition<3, TestType>(box, 13, uneven_sample(box)), points / 2);
 }

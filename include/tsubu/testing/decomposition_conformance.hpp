@@ -13,6 +13,7 @@
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/testing/detail/coordinates.hpp>
 
 #include <algorithm>    // std::sort
 #include <array>        // std::array
@@ -50,58 +51,6 @@ struct decomposition_law {
 }  // namespace tsubu::testing
 
 namespace tsubu::detail {
-
-/// The coordinate beside x, up or down: nothing lies between them.
-template <class Scalar>
-[[nodiscard]] Scalar beside(Scalar x, bool up) {
-    if constexpr (is_lattice<Scalar>)
-        return x + static_cast<decltype(x.value)>(up ? 1 : -1);
-    else
-        return std::nextafter(x, up ? (std::numeric_limits<Scalar>::max)() : std::numeric_limits<Scalar>::lowest());
-}
-/// The place of a coordinate among all others: increasing, without gaps.
-template <class Scalar>
-[[nodiscard]] std::int64_t place_of(Scalar x) {
-    if constexpr (is_lattice<Scalar>)
-        return x.value;
-    else
-        return ordinal(x);
-}
-template <class Scalar>
-[[nodiscard]] Scalar at_place(std::int64_t place) {
-    if constexpr (is_lattice<Scalar>)
-        return {static_cast<decltype(Scalar{}.value)>(place)};
-    else
-        return at_ordinal<Scalar>(place);
-}
-/// A coordinate of any size: of floating point, any finite number.
-template <class Scalar>
-[[nodiscard]] Scalar any_coordinate(random_stream& random) {
-    constexpr auto lowest = interval<Scalar>::all().first;
-    constexpr auto highest = interval<Scalar>::all().last;
-    if constexpr (is_lattice<Scalar>) {
-        return {static_cast<decltype(lowest.value)>(random())};
-    } else {
-        const auto most = static_cast<std::uint64_t>(place_of(highest));
-        const auto place = static_cast<std::int64_t>(random.below(most + 1));
-        return at_place<Scalar>(random.below(2) == 0 ? place : -place);
-    }
-}
-/// A coordinate between two others, these included.
-template <class Scalar>
-[[nodiscard]] Scalar coordinate_between(Scalar first, Scalar last, random_stream& random) {
-    if constexpr (is_lattice<Scalar>) {
-        using Unsigned = std::make_unsigned_t<decltype(first.value)>;
-        const auto steps =
-            static_cast<Unsigned>(static_cast<Unsigned>(last.value) - static_cast<Unsigned>(first.value));
-        const auto step =
-            steps == (std::numeric_limits<Unsigned>::max)() ? random() : random.below(std::uint64_t{steps} + 1);
-        return first + static_cast<decltype(first.value)>(static_cast<Unsigned>(step));
-    } else {
-        const auto x = first + static_cast<Scalar>(random.unit()) * (last - first);
-        return x < first ? first : x > last ? last : x;
-    }
-}
 
 template <class Decomposition, class Check>
 class decomposition_examiner {

@@ -44,7 +44,7 @@
 #include <tsubu/domain/lattice.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
 #include <tsubu/domain/points.hpp>
-#include <tsubu/domain/process_grid.hpp>
+#include <tsubu/domain/rank_grid.hpp>
 #include <tsubu/domain/subdomain.hpp>
 #include <tsubu/domain/triclinic_box.hpp>
 #include <tsubu/domain/wedge.hpp>

@@ -14,7 +14,7 @@
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
 #include <tsubu/domain/points.hpp>
-#include <tsubu/domain/process_grid.hpp>
+#include <tsubu/domain/rank_grid.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
 #include <array>    // std::array
@@ -49,7 +49,7 @@ public:
     /// Equal bricks, on the grid of least surface.
     /// @throws input_error if ranks is 0, or more than the scalar tells apart along some axis.
     brick_decomposition(const box_type& whole, std::size_t ranks)
-        : brick_decomposition(whole, process_grid<D>(ranks, lengths_of(whole))) {}
+        : brick_decomposition(whole, rank_grid<D>(ranks, lengths_of(whole))) {}
     /// Equal bricks on a given grid.
     brick_decomposition(const box_type& whole, const std::array<std::size_t, D>& grid) : whole_(whole) {
         cuts_.reserve(D);

@@ -5,12 +5,13 @@
 
 #include <tsubu/core/vec.hpp>
 
-#include <algorithm>  // std::clamp, std::max, std::sort
+#include <algorithm>  // std::clamp, std::max
 #include <array>      // std::array
 #include <cmath>      // std::abs, std::fma, std::frexp, std::ldexp, std::nearbyint, std::sqrt
 #include <concepts>   // std::floating_point
-#include <cstddef>    // std::ptrdiff_t, std::size_t
+#include <cstddef>    // std::size_t
 #include <limits>     // std::numeric_limits
+#include <utility>    // std::swap
 
 namespace tsubu::detail {
 
@@ -120,8 +121,9 @@ private:
     /// Makes one vector shorter by the shorter ones; false if none is. (The greedy algorithm of Nguyen & Stehle 2009,
     /// doi:10.1145/1597036.1597050: for up to four vectors its result is Minkowski-reduced.)
     bool shorten() noexcept {
-        std::sort(basis_.begin(), basis_.begin() + static_cast<std::ptrdiff_t>(count_),
-                  [](const vector_type& a, const vector_type& b) { return square(a) < square(b); });
+        for (std::size_t last = count_; last > 1; --last)  // by length
+            for (std::size_t i = 1; i < last; ++i)
+                if (square(basis_[i]) < square(basis_[i - 1])) std::swap(basis_[i], basis_[i - 1]);
         for (std::size_t i = 0; i < count_; ++i) {
             if (i > 0) {
                 const auto shorter = nearest(basis_[i], i);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// process_grid: how many ranks along each axis.
+/// rank_grid: how many ranks along each axis.
 #pragma once
 
 #include <tsubu/core/error.hpp>
@@ -22,12 +22,12 @@ namespace tsubu {
 /// @throws input_error if ranks is 0, or an extent is not above 0 and finite.
 /// Complexity: one step for each pair of divisors.
 template <std::size_t D, class Real>
-[[nodiscard]] std::array<std::size_t, D> process_grid(std::size_t ranks, const vec<D, Real>& extents) {
-    if (ranks == 0) detail::raise<input_error>("process_grid", "0 ranks", "ask for at least 1");
+[[nodiscard]] std::array<std::size_t, D> rank_grid(std::size_t ranks, const vec<D, Real>& extents) {
+    if (ranks == 0) detail::raise<input_error>("rank_grid", "0 ranks", "ask for at least 1");
     Real longest = 0;
     for (std::size_t k = 0; k < D; ++k) {
         if (!(extents[k] > 0) || extents[k] - extents[k] != 0)
-            detail::raise<input_error>("process_grid",
+            detail::raise<input_error>("rank_grid",
                                        "the extent " + detail::shown(extents[k]) + " of axis " + detail::shown(k),
                                        "give finite lengths above 0");
         longest = (std::max)(longest, extents[k]);

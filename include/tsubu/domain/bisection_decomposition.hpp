@@ -47,8 +47,7 @@ public:
     using position_type = typename box_type::position_type;
     static constexpr std::size_t dimension = D;
 
-    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box count for
-    /// nothing.
+    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box do not count.
     ///                 Where no sample lies, a cut halves the volume.
     /// @param weights  of each, at least 0; empty: all 1.
     /// @throws input_error if ranks is 0, a weight is negative or not finite, the lengths differ, or a part has too few

@@ -47,10 +47,10 @@ static_assert(border_policy<exact, double> && border_policy<exact, lattice<int>>
 
 /// The faces of the box moved out by an absolute length, as LIGGGHTS does; to compare with, and to reproduce it.
 ///
-/// Concept:       border_policy in form; breaks law 1 where epsilon is not small against the parts, or vanishes beside
-/// the
-///                faces: at |x| >= 2^27 in double, >= 0.25 in float, and for boxes of 1e-7. Breaks law 2 for two or
-///                more parts (the first two both own the cut between them), and for one (nobody owns what lies below).
+/// Concept:       border_policy in form. Breaks law 1: it owns what lies within epsilon outside, all around a box of
+///                1e-7; and where epsilon vanishes beside a face that is not periodic (|x| >= 2^27 in double, >= 0.25 in
+///                float) nobody owns the face. Breaks law 2: of two or more parts the first two both own the cut between
+///                them, and of one part nobody owns what lies below.
 /// Cost:          two comparisons.
 /// Choose it when results of a code that pads its faces are to be reproduced. Do not otherwise.
 /// Source:        B2, B3, B4 as printed.

@@ -91,11 +91,9 @@ private:
 ///
 /// Concept:      decomposition.
 /// Cost:         one to_cell more than the decomposition of the cell for each point.
-/// Choose it when the box is not a domain. Do not when it is: brick_decomposition and bisection_decomposition take
-/// that.
+/// Choose it when the box is not a domain. Do not when it is: the decompositions of its cell take that.
 ///
-/// @tparam Box    a box that tells how far a length reaches in its cell: cell_reach(cutoff, a, b), for two subdomains
-/// of it.
+/// @tparam Box    a box with cell_reach(cutoff, a, b): how far a length reaches in its cell, between two subdomains.
 /// @tparam Parts  brick_decomposition or bisection_decomposition of box.cell().
 template <box Box, decomposition Parts>
 class cell_decomposition {

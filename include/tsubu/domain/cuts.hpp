@@ -26,8 +26,7 @@ class cuts {
 public:
     /// One part: the whole axis.
     constexpr explicit cuts(const axis<Scalar>& whole) : cuts(whole, std::size_t{1}) {}
-    /// `parts` of equal length: begin(k) = lo + L / (parts / k), or, on a lattice, the first coordinate of the k-th
-    /// share.
+    /// `parts` of equal length: begin(k) = lo + L / (parts / k); on a lattice the first coordinate of share k.
     /// @throws input_error if parts is 0, or more than the scalar tells apart here.
     constexpr cuts(const axis<Scalar>& whole, std::size_t parts) : whole_(whole) {
         if (parts == 0) detail::raise<input_error>("cuts", "an axis in 0 parts", "divide it into at least 1");

@@ -112,8 +112,8 @@ public:
         }
         return result;
     }
-    /// Wraps each of many points where it stands, and adds to shift[i] how many periods it was away. @return how many
-    /// points changed.
+    /// Wraps each of many points where it stands, and adds to shift[i] how many periods it was away.
+    /// @return how many points changed.
     /// @throws input_error if the lengths differ, or at the first point that is not finite: the points before it are
     ///         wrapped, and their shifts say so.
     std::size_t wrap(const points<D, Scalar>& x, std::span<image_shift<D>> shift) const {
@@ -172,8 +172,7 @@ public:
     /// The axis in real units; for floating point the axis itself.
     [[nodiscard]] const axis<real_type>& real_axis(std::size_t k) const noexcept { return axes_[k].real(); }
 
-    /// The coordinates of a position, and the periods that it was away: on a lattice the nearest, for floating point
-    /// wrap.
+    /// The coordinates of a position, and the periods that it was away: wrap, and on a lattice the nearest place.
     /// @throws input_error if a coordinate is not finite.
     [[nodiscard]] wrapped<D, Scalar> from_real(const real_position_type& x) const {
         wrapped<D, Scalar> result{};

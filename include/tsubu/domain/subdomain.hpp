@@ -60,8 +60,8 @@ public:
         detail::check_answers("subdomain::owns_extended", mask.size(), x.size());
         detail::inside(extended_, x, 0, x.size(), mask.data());
     }
-    /// Writes the indices of the points that are not owned to the front of `left`, in increasing order. @return how
-    /// many.
+    /// Writes the indices of the points that are not owned to the front of `left`, in increasing order.
+    /// @return how many.
     /// @throws input_error if left is not as long as the points are many.
     std::size_t leavers(const points_type& x, std::span<index_t> left) const {
         detail::check_answers("subdomain::leavers", left.size(), x.size());

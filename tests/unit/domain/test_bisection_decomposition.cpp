@@ -55,6 +55,23 @@ TEST_CASE("an uneven scene is balanced, for any number of ranks", "[domain][bise
     }
 }
 
+TEST_CASE("a layer at the bottom of a tall box is cut across, not along", "[domain][bisection]") {
+    const domain<3> tall{{0, 0, 0}, {1, 1, 50}};
+    tsubu::random_stream random(4);
+    std::vector<vec<3>> layer(4096);
+    for (auto& x : layer) x = {random.unit(), random.unit(), 0.125};
+    for (const std::size_t ranks : {2U, 7U, 16U}) {
+        const bisection_decomposition<3> parts(tall, ranks, layer);
+        const auto load = loads(parts, layer);
+        CAPTURE(ranks);
+        CHECK(*std::min_element(load.begin(), load.end()) >= 4096.0 / static_cast<double>(ranks) - 8);
+        for (std::size_t rank = 0; rank < ranks; ++rank) {
+            CHECK(parts.subdomain(rank).lo()[2] == 0);
+            CHECK(parts.subdomain(rank).hi()[2] == 50);
+        }
+    }
+}
+
 TEST_CASE("weights count, not points", "[domain][bisection]") {
     const auto sample = heap(4000);
     std::vector<double> weights(sample.size());

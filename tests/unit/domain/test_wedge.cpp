@@ -226,3 +226,21 @@ TEST_CASE("a point that is not finite is refused, any other has an image", "[dom
         CHECK(body.wrap(at.position).position == at.position);
     }
 }
+
+TEMPLATE_TEST_CASE("beside an axis that lies far away, where directions are few, each point has an image",
+                   "[domain][wedge]", double, float) {
+    const TestType far = sizeof(TestType) == 8 ? TestType(630734234.13414097) : TestType(53.239658);
+    const wedge<TestType> body(7, {far, far / 2}, TestType(0.2), -1, 1, true);
+    for (int i = -3; i <= 3; ++i)
+        for (int j = -3; j <= 3; ++j) {
+            vec<3, TestType> x{far, far / 2, 0};
+            for (int step = 0; step < std::abs(i); ++step) x[0] = std::nextafter(x[0], i < 0 ? TestType(0) : 2 * far);
+            for (int step = 0; step < std::abs(j); ++step) x[1] = std::nextafter(x[1], j < 0 ? TestType(0) : 2 * far);
+            const auto [y, shift] = body.wrap(x);
+            CAPTURE(i, j);
+            CHECK(body.contains(y));
+            const auto back = body.image(y, shift);
+            for (std::size_t k = 0; k < 2; ++k)
+                CHECK(std::abs(back[k] - x[k]) <= 4 * std::numeric_limits<TestType>::epsilon() * far);
+        }
+}

@@ -8,7 +8,9 @@
 #include "patterns/lammps_ids.hpp"
 #include "patterns/patterns.hpp"
 #include "rivals/std_unordered_map.hpp"
+#include "support/command_line.hpp"
 #include "support/contender.hpp"
+#include "support/progress.hpp"
 #include "support/row_reporter.hpp"
 #include "support/run_context.hpp"
 #if defined(TSUBU_RIVAL_BOOST)
@@ -26,10 +28,9 @@
 #include <tsubu/id/paged_storage.hpp>
 
 #include <algorithm>    // std::minmax_element
-#include <chrono>       // std::chrono::steady_clock
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint32_t, std::uint64_t
-#include <cstdio>       // std::fprintf, std::snprintf
+#include <cstdio>       // std::fprintf
 #include <cstdlib>      // EXIT_SUCCESS
 #include <cstring>      // std::strcmp
 #include <memory>       // std::unique_ptr
@@ -136,8 +137,6 @@ constexpr operation operations[] = {
 
 // ---------------------------------------------------------------------------------------------------------------
 // The plan: which groups.
-
-enum class extent { quick, standard, full };
 
 constexpr std::size_t sizes[] = {10'000, 100'000, 1'000'000, 10'000'000};
 constexpr std::uint64_t ratios[] = {1, 2, 8, 64, 1024, 1'000'000};
@@ -290,13 +289,6 @@ void run_group(const group& which, const id_set& set, row_reporter& report) {
 // ---------------------------------------------------------------------------------------------------------------
 // The command line.
 
-struct options {
-    extent how_much = extent::standard;
-    std::string ids_file;
-    std::string out = "bench_id_map.json";
-    std::string only;
-};
-
 constexpr const char* usage =
     "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
     "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5: about 3 minutes\n"
@@ -305,70 +297,6 @@ constexpr const char* usage =
     "  --ids FILE  also the ids of a LAMMPS data or dump file\n"
     "  --only TEXT only groups whose name contains it, such as uniform/N:100000/ratio:8\n"
     "TSUBU_INSTRUCTION_SET=portable|avx2|avx512 limits what the maps may use.\n";
-
-/// Takes our options out of the arguments. @return false if one is not understood.
-bool parse(std::vector<char*>& arguments, options& chosen) {
-    std::vector<char*> rest{arguments.front()};
-    for (std::size_t k = 1; k < arguments.size(); ++k) {
-        const std::string_view word = arguments[k];
-        const bool has_value = k + 1 < arguments.size();
-        if (word == "--quick")
-            chosen.how_much = extent::quick;
-        else if (word == "--full")
-            chosen.how_much = extent::full;
-        else if (word == "--ids" && has_value)
-            chosen.ids_file = arguments[++k];
-        else if (word == "--only" && has_value)
-            chosen.only = arguments[++k];
-        else if (word.starts_with("--benchmark_out="))
-            chosen.out = word.substr(word.find('=') + 1);
-        else if (word.starts_with("--benchmark_"))
-            rest.push_back(arguments[k]);
-        else
-            return false;
-    }
-    arguments = rest;
-    return true;
-}
-
-/// Our defaults for Google Benchmark come first, so that the user's flags override them.
-void initialize_benchmark(const std::vector<char*>& user, extent how_much) {
-    constexpr const char* repetitions[] = {"5", "5", "7"};
-    constexpr const char* seconds[] = {"0.005", "0.02", "0.03"};
-    const auto k = static_cast<std::size_t>(how_much);
-    std::vector<std::string> words = {user.front(), "--benchmark_enable_random_interleaving=true",
-                                      std::string("--benchmark_repetitions=") + repetitions[k],
-                                      std::string("--benchmark_min_time=") + seconds[k]};
-    words.insert(words.end(), user.begin() + 1, user.end());
-    std::vector<char*> pointers;
-    for (auto& word : words) pointers.push_back(word.data());
-    int count = static_cast<int>(pointers.size());
-    benchmark::Initialize(&count, pointers.data());
-}
-
-class progress {
-public:
-    explicit progress(double all) : all_(all) {}
-    void begin(std::size_t number, std::size_t count, const std::string& name) const {
-        std::fprintf(stderr, "[%zu/%zu] %-40s %s\n", number, count, name.c_str(), left().c_str());
-    }
-    void end(double weight) { done_ += weight; }
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    [[nodiscard]] std::string left() const {
-        if (done_ <= 0) return "";
-        const int seconds_left = static_cast<int>(seconds() * (all_ - done_) / done_);
-        char text[48];
-        std::snprintf(text, sizeof text, "about %d min %02d s left", seconds_left / 60, seconds_left % 60);
-        return text;
-    }
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double all_;
-    double done_ = 0;
-};
 
 int run(const options& chosen) {
     std::vector<group> groups;
@@ -391,8 +319,7 @@ int run(const options& chosen) {
     }
 
     auto context = run_context();
-    constexpr const char* extents[] = {"quick", "standard", "full"};
-    context.emplace_back("extent", extents[static_cast<int>(chosen.how_much)]);
+    context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
     if (!chosen.ids_file.empty()) context.emplace_back("ids_file", chosen.ids_file);
     row_reporter report(chosen.out, context);
     progress shown(all);
@@ -418,7 +345,8 @@ int main(int argc, char** argv) {
             return EXIT_SUCCESS;
         }
     bench::options chosen;
-    if (!bench::parse(arguments, chosen)) {
+    chosen.out = "bench_id_map.json";
+    if (!bench::parse(arguments, chosen, true)) {
         std::fputs(bench::usage, stderr);
         return 2;
     }

@@ -15,7 +15,8 @@
 namespace bench {
 
 /// The fields are those of Google Benchmark's own JSON, so that its tools read it. A line that stands for no
-/// measurement has "refused" (the policy's message) or "degenerate" (nodes visited per look-up) in place of times.
+/// measurement has "refused" (the policy's message) or "degenerate" (nodes visited per look-up) in place of times; one
+/// of something other than time has its own fields.
 class row_reporter final : public benchmark::BenchmarkReporter {
 public:
     row_reporter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& context)
@@ -43,6 +44,12 @@ public:
     void degenerate(const std::string& name, double visits, double nanoseconds) {
         row("\"name\": " + quoted(name) + ", \"degenerate\": " + number(visits) +
             (nanoseconds < 0 ? "" : ", \"nanoseconds\": " + number(nanoseconds)));
+    }
+    /// Anything but a time: errors, numbers of points.
+    void counted(const std::string& name, const std::vector<std::pair<std::string, double>>& fields) {
+        std::string text = "\"name\": " + quoted(name);
+        for (const auto& [field, value] : fields) text += ", " + quoted(field) + ": " + number(value);
+        row(text);
     }
     /// Ends the file. @throws std::runtime_error if not all could be written.
     void close() {

@@ -9,6 +9,7 @@
 #include <tsubu/domain/border.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/cuts.hpp>
+#include <tsubu/domain/detail/each_point.hpp>
 #include <tsubu/domain/detail/owners_of.hpp>
 #include <tsubu/domain/detail/reach.hpp>
 #include <tsubu/domain/domain.hpp>
@@ -17,13 +18,14 @@
 #include <tsubu/domain/rank_grid.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
-#include <array>    // std::array
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::int32_t
-#include <span>     // std::span
-#include <string>   // std::to_string
-#include <utility>  // std::move
-#include <vector>   // std::vector
+#include <algorithm>  // std::fill, std::min
+#include <array>      // std::array
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int32_t
+#include <span>       // std::span
+#include <string>     // std::to_string
+#include <utility>    // std::move
+#include <vector>     // std::vector
 
 namespace tsubu {
 
@@ -100,7 +102,29 @@ public:
     }
     /// The same for each of many points. @throws input_error if the lengths differ.
     void owner(const points<D, const Scalar>& x, std::span<rank_t> owners) const {
-        detail::owners_of("brick_decomposition::owner", *this, x, owners);
+        detail::check_answers("brick_decomposition::owner", owners.size(), x.size());
+        std::size_t cut_count = 0;
+        for (const auto& axis_cuts : cuts_) cut_count += axis_cuts.parts() - 1;
+        if (cut_count > few_cuts) return detail::owners_of("brick_decomposition::owner", *this, x, owners);
+        // The part of a coordinate is the number of cuts at or below it: counted without a branch, in blocks that stay
+        // in the first-level cache.
+        constexpr std::size_t block = 1024;
+        x.visit([&](auto at) {
+            for (std::size_t begin = 0; begin < x.size(); begin += block) {
+                const auto count = (std::min)(block, x.size() - begin);
+                rank_t* const out = owners.data() + begin;
+                std::fill(out, out + count, rank_t{0});
+                std::size_t stride = 1;
+                for (std::size_t k = D; k-- > 0; stride *= cuts_[k].parts())
+                    for (std::size_t part = 1; part < cuts_[k].parts(); ++part)
+                        detail::each_point(
+                            count, out,
+                            [ =, cut = detail::comparable(cuts_[k].begin(part)),
+                              step = static_cast<rank_t>(stride) ](std::size_t i) __attribute__((always_inline)) {
+                                return out[i] + (detail::comparable(at(begin + i, k)) >= cut ? step : 0);
+                            });
+            }
+        });
     }
     /// @throws input_error if there is no such rank.
     [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
@@ -127,6 +151,10 @@ public:
     }
 
 private:
+    // A batched owner costs 1/30 ns per cut and point, a guessed one 10 to 30 ns per point, most of it branches that
+    // were predicted wrong; with more cuts they come close in slow caches.
+    static constexpr std::size_t few_cuts = 24;
+
     [[nodiscard]] static vec<D, real_type> lengths_of(const box_type& whole) noexcept {
         vec<D, real_type> lengths{};
         for (std::size_t k = 0; k < D; ++k) lengths[k] = whole.along(k).length();

@@ -119,6 +119,7 @@ public:
     std::size_t wrap(const points<D, Scalar>& x, std::span<image_shift<D>> shift) const {
         detail::check_answers("domain::wrap", shift.size(), x.size());
         std::size_t changed = 0;
+        if constexpr (is_lattice<Scalar>) return changed;  // there is no outside
         detail::each_outside<D, Scalar>(insides(), x, [&](std::size_t i, bool outside) {
             if (!outside) return;
             const auto from = x[i];

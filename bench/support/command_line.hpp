@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What the programs of the suite have in common on their command lines.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>      // std::size_t
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <vector>       // std::vector
+
+namespace bench {
+
+enum class extent { quick, standard, full };
+inline constexpr const char* extent_names[] = {"quick", "standard", "full"};
+
+struct options {
+    extent how_much = extent::standard;
+    std::string out;
+    std::string only;
+    std::string ids_file;
+};
+
+/// Takes our options out of the arguments; those of Google Benchmark stay. @return false if one is not understood.
+/// @param takes_ids  whether the program has a use for --ids
+[[nodiscard]] inline bool parse(std::vector<char*>& arguments, options& chosen, bool takes_ids = false) {
+    std::vector<char*> rest{arguments.front()};
+    for (std::size_t k = 1; k < arguments.size(); ++k) {
+        const std::string_view word = arguments[k];
+        if (word == "--quick")
+            chosen.how_much = extent::quick;
+        else if (word == "--full")
+            chosen.how_much = extent::full;
+        else if (word == "--only" && k + 1 < arguments.size())
+            chosen.only = arguments[++k];
+        else if (word == "--ids" && takes_ids && k + 1 < arguments.size())
+            chosen.ids_file = arguments[++k];
+        else if (word.starts_with("--benchmark_out="))
+            chosen.out = word.substr(word.find('=') + 1);
+        else if (word.starts_with("--benchmark_"))
+            rest.push_back(arguments[k]);
+        else
+            return false;
+    }
+    arguments = rest;
+    return true;
+}
+
+/// Our defaults for Google Benchmark come first, so that the user's flags override them.
+inline void initialize_benchmark(const std::vector<char*>& user, extent how_much) {
+    constexpr const char* repetitions[] = {"5", "5", "7"};
+    constexpr const char* seconds[] = {"0.005", "0.02", "0.03"};
+    const auto k = static_cast<std::size_t>(how_much);
+    std::vector<std::string> words = {user.front(), "--benchmark_enable_random_interleaving=true",
+                                      std::string("--benchmark_repetitions=") + repetitions[k],
+                                      std::string("--benchmark_min_time=") + seconds[k]};
+    words.insert(words.end(), user.begin() + 1, user.end());
+    std::vector<char*> pointers;
+    for (auto& word : words) pointers.push_back(word.data());
+    int count = static_cast<int>(pointers.size());
+    benchmark::Initialize(&count, pointers.data());
+}
+
+}  // namespace bench

@@ -42,7 +42,8 @@ void check_laws(const Box& where) {
     CHECK(seen.checked > 1000);
 }
 
-/// A box with everything right, for twins to spoil. Its tilt is strong: yz and xz stay within half an edge.
+/// A box with everything right, for twins to spoil. Tilted by half an edge: the nearest fraction is not the nearest
+/// image.
 struct sound_box : triclinic_box<2> {
     sound_box() : triclinic_box<2>({-0.1, 0.2}, {1, 0.3}, {0.5}, {true, true}) {}
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Decompositions of boxes that are not domains, and the laws of a box.
+/// Decompositions of boxes that are not domains.
 #include <tsubu/domain/cell_decomposition.hpp>
 
 #include "support/catch.hpp"

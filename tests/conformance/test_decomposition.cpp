@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// The decompositions and the boxes, and nothing else.
+/// The decompositions of domains, and nothing else.
 #include <tsubu/testing/decomposition_conformance.hpp>
 
 #include "support/catch.hpp"

@@ -24,6 +24,8 @@ TSUBU_TEST_DIMENSIONS(double);
 TSUBU_TEST_DIMENSIONS(float);
 TSUBU_TEST_DIMENSIONS(tsubu::lattice<std::int32_t>);
 TSUBU_TEST_DIMENSIONS(tsubu::lattice<std::int64_t>);
+template class tsubu::subdomain<2, tsubu::lattice<long long>>;  // no kernel
+template class tsubu::subdomain<2, tsubu::lattice<std::int8_t>>;
 template class tsubu::brick_decomposition<3, double, tsubu::padded>;
 template class tsubu::brick_decomposition<2, float, tsubu::padded>;
 

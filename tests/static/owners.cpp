@@ -8,9 +8,9 @@
 #include <tsubu/domain/cell_decomposition.hpp>
 #include <tsubu/domain/triclinic_box.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <type_traits>
 #include <vector>
 
 namespace {

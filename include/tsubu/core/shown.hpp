@@ -12,7 +12,7 @@ namespace tsubu::detail {
 template <class Number>
 requires requires(char* at, Number x) { std::to_chars(at, at, x); }
 [[nodiscard]] std::string shown(Number x) {
-    char text[64];
+    char text[64];  // no shortest form of a number is longer
     return {text, std::to_chars(text, text + sizeof(text), x).ptr};
 }
 /// A lattice coordinate, or whatever else wraps a number.

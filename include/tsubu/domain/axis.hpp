@@ -8,10 +8,11 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/lattice.hpp>
 
-#include <cmath>     // std::fma, std::fmod, std::nearbyint, std::remainder
-#include <concepts>  // std::floating_point
-#include <cstdint>   // std::int64_t
-#include <string>    // std::to_string
+#include <cmath>        // std::fma, std::fmod, std::nearbyint, std::remainder
+#include <concepts>     // std::floating_point
+#include <cstdint>      // std::int64_t
+#include <limits>       // std::numeric_limits
+#include <type_traits>  // std::make_unsigned_t
 
 namespace tsubu {
 
@@ -21,6 +22,18 @@ struct wrapped_coordinate {
     Scalar position;
     std::int64_t shift;
 };
+
+namespace detail {
+
+/// The sum of two image counters; past the ends of the type, its end.
+[[nodiscard]] constexpr std::int64_t saturated_sum(std::int64_t a, std::int64_t b) noexcept {
+    using limits = std::numeric_limits<std::int64_t>;
+    if (b > 0 && a > (limits::max)() - b) return (limits::max)();
+    if (b < 0 && a < (limits::min)() - b) return (limits::min)();
+    return a + b;
+}
+
+}  // namespace detail
 
 /// One direction of a box. Every member is total: any finite number has a result, in O(1).
 ///
@@ -33,7 +46,7 @@ class axis {
 
 public:
     using scalar_type = Scalar;
-    using real_type = Scalar;  ///< in which lengths are told
+    using real_type = Scalar;  ///< the type of lengths
 
     /// @throws input_error unless lo < hi, both and hi - lo finite.
     constexpr axis(Scalar lo, Scalar hi, bool periodic) : lo_(lo), hi_(hi), length_(hi - lo), periodic_(periodic) {
@@ -41,7 +54,7 @@ public:
             detail::raise<input_error>("axis",
                                        "the face " + detail::shown(detail::is_finite(lo) ? hi : lo) +
                                            " is not a finite number",
-                                       "give finite faces; an axis without end needs none of them to be near it");
+                                       "give finite faces; a face that nothing reaches may lie far away");
         if (!(lo < hi))
             detail::raise<input_error>("axis", "lo = " + detail::shown(lo) + " is not below hi = " + detail::shown(hi),
                                        "give the lower face first, and a box that is not empty");
@@ -64,7 +77,7 @@ public:
 
     /// The image of x on a periodic axis, and how many periods it was away; any other axis leaves x alone. What rounds
     /// to hi is lo of the next period. |position + shift L - x| is a few units in the last place of the largest of
-    /// them. Beyond 2^53 periods no number tells one from the next; beyond 2^63 shift stays at its end.
+    /// them. Beyond 2^53 periods (2^24 in float) no number tells one from the next; beyond 2^63 shift stays at its end.
     /// @throws input_error if x is not finite.
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> wrap(Scalar x) const {
         if (inside().contains(x) || (!periodic_ && detail::is_finite(x))) return {x, 0};
@@ -75,11 +88,11 @@ public:
         if (x < lo_ && lo_ - x <= length_) return settled(x + length_, -1);
         return wrap_from_afar(x);
     }
-    /// Where x was before wrap, to within rounding.
+    /// Where x was before wrap, to within rounding, unless shift is at its end.
     [[nodiscard]] constexpr Scalar unwrap(wrapped_coordinate<Scalar> at) const noexcept {
         return at.position + static_cast<Scalar>(at.shift) * length_;
     }
-    /// What a generic program asks of a lattice; for floating point it is nothing, or wrap.
+    /// As a lattice has them, for code that takes either: the axis itself, wrap, and x.
     [[nodiscard]] constexpr const axis& real() const noexcept { return *this; }
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> from_real(Scalar x) const { return wrap(x); }
     [[nodiscard]] constexpr Scalar to_real(Scalar x) const noexcept { return x; }
@@ -89,7 +102,7 @@ public:
         if (!periodic_ || (d <= length_ / 2 && d >= -length_ / 2)) return d;
         return std::remainder(d, length_);  // exact
     }
-    /// The shortest displacement from b to an image of a.
+    /// The shortest displacement from b to an image of a [m], for a - b that is finite.
     [[nodiscard]] Scalar minimum_image(Scalar a, Scalar b) const noexcept { return minimum_image(a - b); }
 
 private:
@@ -104,12 +117,11 @@ private:
         if (beyond < 0) beyond += length_;
         if (beyond < 0) beyond += length_;
         if (beyond >= length_) beyond -= length_;
-        const auto [position, carry] = settled(lo_ + beyond, 0);
+        const Scalar position = settled(lo_ + beyond, 0).position;  // its shift shows in the position
         const Scalar periods = std::nearbyint(x / length_ - position / length_);
         constexpr Scalar end = 9223372036854775808.0;  // 2^63
         if (periods >= end) return {position, (std::numeric_limits<std::int64_t>::max)()};
         if (periods <= -end) return {position, (std::numeric_limits<std::int64_t>::min)()};
-        static_cast<void>(carry);  // the position tells it
         return {position, static_cast<std::int64_t>(periods)};
     }
 
@@ -119,7 +131,7 @@ private:
     bool periodic_;
 };
 
-/// A periodic axis whose coordinates are a lattice: every coordinate is inside, and nothing rounds.
+/// A periodic axis whose coordinates are a lattice: every one is inside; only what leaves it for real units rounds.
 template <class Int>
 class axis<lattice<Int>> {
 public:
@@ -149,14 +161,16 @@ public:
         const auto [position, shift] = real_.wrap(x);
         constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());  // 2^b
         const double at = std::nearbyint((position - real_.lo()) / real_.length() * steps);
-        if (at >= steps) return {lo(), shift == (std::numeric_limits<std::int64_t>::max)() ? shift : shift + 1};
+        if (at >= steps) return {lo(), detail::saturated_sum(shift, 1)};
         return {lo() + static_cast<Int>(static_cast<std::make_unsigned_t<Int>>(at)), shift};
     }
-    /// The position of a lattice coordinate, in [lo, hi]; rounded once, the same on every machine.
-    [[nodiscard]] double to_real(lattice<Int> x) const noexcept {
-        return std::fma(from_lower_face(x), step(), real_.lo());
+    /// The position of a lattice coordinate [m], in [lo, hi], the same on every machine: rounded once, or twice where
+    /// b > 53.
+    [[nodiscard]] double to_real(lattice<Int> at) const noexcept {
+        const double x = std::fma(from_lower_face(at), step(), real_.lo());
+        return x < real_.hi() ? x : real_.hi();
     }
-    /// Where a wrapped coordinate was, to within rounding.
+    /// Where a wrapped coordinate was [m], to within rounding, unless shift is at its end.
     [[nodiscard]] double unwrap(wrapped_coordinate<lattice<Int>> at) const noexcept {
         return real_.unwrap({to_real(at.position), at.shift});
     }
@@ -167,10 +181,12 @@ public:
         return static_cast<double>(steps) * step();
     }
 
-private:
+    /// The length of one lattice step [m].
     [[nodiscard]] constexpr double step() const noexcept {
         return length() / (-2.0 * static_cast<double>(std::numeric_limits<Int>::min()));
     }
+
+private:
     [[nodiscard]] static constexpr double from_lower_face(lattice<Int> x) noexcept {
         return static_cast<double>(static_cast<std::make_unsigned_t<Int>>(
             static_cast<std::make_unsigned_t<Int>>(x.value) -

@@ -11,7 +11,6 @@
 
 #include <concepts>  // std::semiregular
 #include <cstddef>   // std::size_t
-#include <limits>    // std::numeric_limits
 
 namespace tsubu {
 
@@ -30,7 +29,7 @@ concept border_policy = std::semiregular<Border> &&
 ///
 /// Concept:       border_policy, laws 1 to 3 at every scale and for every scalar.
 /// Cost:          two comparisons.
-/// Choose it always. Do not when results of a code that pads its faces are to be reproduced.
+/// Choose it when results of a code that pads its faces need not be reproduced. Do not when they must: padded.
 /// Source:        B2 as decided, B3, B4.
 struct exact {
     template <class Scalar>
@@ -47,17 +46,17 @@ static_assert(border_policy<exact, double> && border_policy<exact, lattice<int>>
 
 /// The faces of the box moved out by an absolute length, as LIGGGHTS does; to compare with, and to reproduce it.
 ///
-/// Concept:       border_policy in form. Breaks law 1: it owns what lies within epsilon outside, all around a box of
-///                1e-7; and where epsilon vanishes beside a face that is not periodic (|x| >= 2^27 in double, >= 0.25 in
-///                float) nobody owns the face. Breaks law 2: of two or more parts the first two both own the cut between
-///                them, and of one part nobody owns what lies below.
+/// Concept:       border_policy in form only. It breaks law 1: it owns what lies up to epsilon outside, which is 10 %
+///                of a box of 1e-7 m; and where epsilon vanishes beside an upper face that is closed (|x| >= 2^27 in
+///                double, >= 0.25 in float) nobody owns that face. Law 2: of two or more parts the first two both own the cut
+///                between them; of a single part nobody owns what lies below. Law 3: so with that cut, inside.
 /// Cost:          two comparisons.
 /// Choose it when results of a code that pads its faces are to be reproduced. Do not otherwise.
 /// Source:        B2, B3, B4 as printed.
 struct padded {
-    double epsilon = 1e-8;  ///< [m]
+    double epsilon;  ///< [m]
 
-    /// @throws input_error if epsilon is negative or NaN.
+    /// @param width  [m]; 1e-8 is what LIGGGHTS has. @throws input_error if it is negative or NaN.
     explicit padded(double width = 1e-8) : epsilon(width) {
         if (!(width >= 0))
             detail::raise<input_error>("padded", "epsilon = " + detail::shown(width), "give a length of at least 0");

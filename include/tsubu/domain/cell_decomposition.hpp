@@ -7,6 +7,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/detail/checks.hpp>
 #include <tsubu/domain/detail/each_point.hpp>
 #include <tsubu/domain/detail/owners_of.hpp>
 #include <tsubu/domain/detail/reach.hpp>
@@ -93,9 +94,9 @@ private:
 /// Cost:         one to_cell more than the decomposition of the cell for each point.
 /// Choose it when the box is not a domain. Do not when it is: the decompositions of its cell take that.
 ///
-/// @tparam Box    a box with cell_reach(cutoff, a, b): how far a length reaches in its cell, between two subdomains.
+/// @tparam Box    triclinic_box, wedge, or another reaching_box.
 /// @tparam Parts  brick_decomposition or bisection_decomposition of box.cell().
-template <box Box, decomposition Parts>
+template <reaching_box Box, decomposition Parts>
 class cell_decomposition {
 public:
     using box_type = Box;
@@ -126,6 +127,7 @@ public:
     [[nodiscard]] rank_t owner(const position_type& x) const noexcept {
         return parts_.owner(detail::cell_point(box_, x));
     }
+    /// The same for each of many points. Precondition: no coordinate is NaN. @throws input_error if the lengths differ.
     void owner(const points<dimension, const scalar_type>& x, std::span<rank_t> owners) const {
         detail::owners_of("cell_decomposition::owner", *this, x, owners);
     }
@@ -143,7 +145,7 @@ public:
         auto found = detail::neighbors_within(
             where, box_.cell(), parts_, rank,
             [&](const auto& mine, const auto& theirs) { return box_.cell_reach(cutoff, mine, theirs); }, false);
-        if constexpr (requires { box_.same_image(found[0].shift); }) {  // after n sectors a wedge is at its begin again
+        if constexpr (cyclic_box<Box>) {  // after n sectors a wedge is at its begin again
             for (auto& neighbor : found) neighbor.shift = box_.same_image(neighbor.shift);
             std::sort(found.begin(), found.end());
             found.erase(std::unique(found.begin(), found.end()), found.end());

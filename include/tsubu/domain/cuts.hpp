@@ -8,13 +8,15 @@
 #include <tsubu/domain/axis.hpp>
 #include <tsubu/domain/interval.hpp>
 
-#include <algorithm>  // std::upper_bound
-#include <concepts>   // std::floating_point
-#include <cstddef>    // std::size_t
-#include <cstdint>    // std::uint64_t
-#include <limits>     // std::numeric_limits
-#include <string>     // std::to_string
-#include <vector>     // std::vector
+#include <algorithm>         // std::upper_bound
+#include <cstddef>           // std::size_t
+#include <cstdint>           // std::uint64_t
+#include <initializer_list>  // std::initializer_list
+#include <limits>            // std::numeric_limits
+#include <string>            // std::to_string
+#include <type_traits>       // std::make_unsigned_t
+#include <utility>           // std::move
+#include <vector>            // std::vector
 
 namespace tsubu {
 
@@ -42,6 +44,10 @@ public:
         check("given cuts");
     }
 
+    /// The same: {0.5} is one cut, never a number of parts.
+    constexpr cuts(const axis<Scalar>& whole, std::initializer_list<Scalar> inner)
+        : cuts(whole, std::vector<Scalar>(inner)) {}
+
     [[nodiscard]] constexpr std::size_t parts() const noexcept { return begins_.size(); }
     [[nodiscard]] constexpr const axis<Scalar>& whole() const noexcept { return whole_; }
     [[nodiscard]] constexpr Scalar begin(std::size_t part) const noexcept { return begins_[part]; }
@@ -55,7 +61,8 @@ public:
         return {part == 0 ? interval<Scalar>::all().first : begins_[part],
                 part + 1 < parts() ? detail::before(begins_[part + 1]) : interval<Scalar>::all().last};
     }
-    /// The part whose owned_extended has x: O(1) for equal parts, O(log parts) in the worst case. x is not NaN.
+    /// The part whose owned_extended has x: O(1) for equal parts, O(log parts) in the worst case.
+    /// Precondition: x is not NaN.
     [[nodiscard]] constexpr std::size_t part_of(Scalar x) const noexcept {
         // Guessed by a division, which may be wrong by its rounding or by uneven cuts; the table decides.
         const auto guess = guessed(x);
@@ -72,7 +79,8 @@ private:
                                                   std::size_t parts) noexcept {
         if constexpr (is_lattice<Scalar>) {
             using Int = decltype(whole.lo().value);
-            // floor(k 2^b / parts), by long division: quotient and remainder of 2^b, each times k.
+            // floor(k 2^b / parts), by long division: quotient and remainder of 2^(b-1), since 2^64 fits no word, each
+            // times 2 k.
             constexpr auto half = static_cast<std::uint64_t>(std::numeric_limits<Int>::max()) + 1;
             const std::uint64_t quotient = half / parts;
             const std::uint64_t rest = half % parts;

@@ -54,6 +54,8 @@ struct domain_options {
 ///
 /// Every formula is a loop over axes; see axis for their rounding.
 ///
+/// Concept: box. Cost: all O(D); a point many periods away costs a call of std::fmod per axis.
+///
 /// @tparam D       1, 2 or 3.
 /// @tparam Scalar  float, double, or lattice<Int>, whose axes are all periodic.
 /// @tparam Border  a border_policy, which the decompositions of this domain ask.
@@ -66,14 +68,14 @@ class domain {
 public:
     using scalar_type = Scalar;
     using real_type = typename axis<Scalar>::real_type;
-    using border_type = Border;
     using position_type = vec<D, Scalar>;
     using real_position_type = vec<D, real_type>;
     using options = domain_options<D, Border>;
     static constexpr std::size_t dimension = D;
 
-    /// @throws input_error unless lo < hi on every axis, all of them finite; and for a lattice with an axis that is not
-    ///         periodic.
+    /// @param lo, hi  lower and upper faces [m], [D]
+    /// @throws input_error unless lo < hi on every axis, both and hi - lo finite; and for a lattice with an axis that
+    ///         is not periodic.
     domain(const real_position_type& lo, const real_position_type& hi, const options& with = {})
         : domain(lo, hi, with, std::make_index_sequence<D>{}) {}
     /// The same box for positions of a narrower type: its faces rounded inwards, so that whatever is in it is in the
@@ -90,7 +92,7 @@ public:
     [[nodiscard]] const axis<Scalar>& along(std::size_t k) const noexcept { return axes_[k]; }
     [[nodiscard]] const Border& border() const noexcept { return border_; }
 
-    /// B1.
+    /// Whether x is in the box (B1): lo <= x < hi along a periodic axis, lo <= x <= hi along any other. NaN is not.
     [[nodiscard]] bool contains(const position_type& x) const noexcept {
         bool inside = true;
         for (std::size_t k = 0; k < D; ++k) inside &= axes_[k].contains(x[k]);
@@ -120,19 +122,19 @@ public:
         detail::check_answers("domain::wrap", shift.size(), x.size());
         std::size_t changed = 0;
         if constexpr (is_lattice<Scalar>) return changed;  // there is no outside
-        detail::each_outside<D, Scalar>(insides(), x, [&](std::size_t i, bool outside) {
+        detail::tell_outside<D, Scalar>(insides(), x, [&](std::size_t i, bool outside) {
             if (!outside) return;
             const auto from = x[i];
             check_finite(from, [&] { return " of point " + std::to_string(i); });
             const auto to = wrap(from);
             if (to.position == from) return;  // beyond a face that is not periodic
             x.set(i, to.position);
-            for (std::size_t k = 0; k < D; ++k) shift[i][k] += to.shift[k];
+            for (std::size_t k = 0; k < D; ++k) shift[i][k] = detail::saturated_sum(shift[i][k], to.shift[k]);
             ++changed;
         });
         return changed;
     }
-    /// Where a wrapped position was, in real units, to within rounding.
+    /// Where a wrapped position was, in real units, to within rounding, unless a shift is at its end.
     [[nodiscard]] real_position_type unwrap(const wrapped<D, Scalar>& at) const noexcept {
         return image(at.position, at.shift);
     }
@@ -148,19 +150,19 @@ public:
         for (std::size_t k = 0; k < D; ++k) d[k] = axes_[k].minimum_image(a[k], b[k]);
         return d;
     }
-    /// B7, B8; of equal edges that of the lowest axis.
+    /// The shortest edge [m] and its axis (B7, B8); of equal edges the lowest axis.
     [[nodiscard]] shortest_extent<real_type> min_extent() const noexcept {
         shortest_extent<real_type> shortest{axes_[0].length(), 0};
         for (std::size_t k = 1; k < D; ++k)
             if (axes_[k].length() < shortest.width) shortest = {axes_[k].length(), k};
         return shortest;
     }
-    /// Within r_c of a periodic face, on either side of it (B9): x < lo + r_c or x > hi - r_c on a periodic axis.
-    /// @throws input_error if r_c is negative or NaN.
+    /// Beyond a periodic face, or nearer to one than the cutoff [m] (B9): x < lo + cutoff or x > hi - cutoff there.
+    /// @throws input_error if the cutoff is negative or NaN.
     [[nodiscard]] bool near_periodic_face(const real_position_type& x, real_type cutoff) const {
         return is_near(between_periodic_faces(cutoff), [&](std::size_t k) { return x[k]; });
     }
-    /// mask[i] = 1 if point i is. @throws input_error as above, and if the lengths differ.
+    /// mask[i] = 1 if point i is near. @throws input_error as above, and if the lengths differ.
     void near_periodic_face(const points<D, const real_type>& x, real_type cutoff,
                             std::span<unsigned char> mask) const {
         detail::check_answers("domain::near_periodic_face", mask.size(), x.size());
@@ -184,6 +186,7 @@ public:
         }
         return result;
     }
+    /// The position in real units [m], as axis::to_real.
     [[nodiscard]] real_position_type to_real(const position_type& x) const noexcept {
         real_position_type real{};
         for (std::size_t k = 0; k < D; ++k) real[k] = axes_[k].to_real(x[k]);

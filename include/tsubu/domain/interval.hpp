@@ -11,9 +11,11 @@
 #include <limits>       // std::numeric_limits
 #include <type_traits>  // std::conditional_t
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
-#error "tsubu: -ffast-math and -ffinite-math-only remove the tests for NaN and infinity that decide whose a particle is; \
-compile without them, or with -fno-finite-math-only after them"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) || \
+    defined(__ASSOCIATIVE_MATH__)
+#error \
+    "tsubu: -ffast-math and its parts remove the tests for NaN and infinity, or regroup the sums, that decide whose \
+a particle is; compile without them"
 #endif
 
 namespace tsubu {
@@ -33,7 +35,12 @@ struct interval {
     }
     /// Every value that the type has, infinities excepted.
     [[nodiscard]] static constexpr interval all() noexcept {
-        return {std::numeric_limits<Scalar>::lowest(), (std::numeric_limits<Scalar>::max)()};
+        if constexpr (is_lattice<Scalar>) {
+            using limits = std::numeric_limits<decltype(Scalar{}.value)>;
+            return {{(limits::min)()}, {(limits::max)()}};
+        } else {
+            return {std::numeric_limits<Scalar>::lowest(), (std::numeric_limits<Scalar>::max)()};
+        }
     }
 };
 
@@ -72,18 +79,26 @@ template <class Scalar>
         return next_below(x);
 }
 
-/// The place of a finite number among all of its type: increasing, 1 from a number to the next.
-template <std::floating_point Scalar>
+/// The place of a coordinate among all of its type, infinities excepted: increasing, 1 from one to the next.
+template <class Scalar>
 [[nodiscard]] constexpr std::int64_t ordinal(Scalar x) noexcept {
-    if (x == 0) return 0;
-    const auto size = static_cast<std::int64_t>(std::bit_cast<bits_of<Scalar>>(x < 0 ? -x : x));
-    return x < 0 ? -size : size;
+    if constexpr (is_lattice<Scalar>) {
+        return x.value;
+    } else {
+        if (x == 0) return 0;
+        const auto size = static_cast<std::int64_t>(std::bit_cast<bits_of<Scalar>>(x < 0 ? -x : x));
+        return x < 0 ? -size : size;
+    }
 }
-/// The number at a place.
-template <std::floating_point Scalar>
+/// The coordinate at a place.
+template <class Scalar>
 [[nodiscard]] constexpr Scalar at_ordinal(std::int64_t place) noexcept {
-    const auto size = std::bit_cast<Scalar>(static_cast<bits_of<Scalar>>(place < 0 ? -place : place));
-    return place < 0 ? -size : size;
+    if constexpr (is_lattice<Scalar>) {
+        return {static_cast<decltype(Scalar{}.value)>(place)};
+    } else {
+        const auto size = std::bit_cast<Scalar>(static_cast<bits_of<Scalar>>(place < 0 ? -place : place));
+        return place < 0 ? -size : size;
+    }
 }
 
 /// NaN and infinities are not finite: x - x is 0 for all others.

@@ -5,8 +5,6 @@
 
 #include <compare>      // std::strong_ordering
 #include <concepts>     // std::signed_integral
-#include <cstdint>      // std::int32_t
-#include <limits>       // std::numeric_limits
 #include <type_traits>  // std::make_unsigned_t
 
 namespace tsubu {
@@ -15,10 +13,10 @@ namespace tsubu {
 /// and one past the highest is the lower face again.
 ///
 /// A wrap is integer overflow, a nearest image a subtraction, ownership a comparison: exact, and as fine everywhere in
-/// the box: L / 2^32 or L / 2^64. It takes a periodic axis, whose domain<D, lattice<Int>> converts from and to
-/// positions.
+/// the box: L / 2^32 or L / 2^64. Periodic axes only; domain<D, lattice<Int>> converts
+/// positions from and to real units.
 ///
-/// @tparam Int  std::int32_t or std::int64_t.
+/// @tparam Int  std::int32_t or std::int64_t; smaller ones for exhaustive tests.
 template <std::signed_integral Int>
 struct lattice {
     Int value = 0;
@@ -43,12 +41,3 @@ template <class Int>
 inline constexpr bool is_lattice<lattice<Int>> = true;
 
 }  // namespace tsubu
-
-/// The ends of the axis, for code that asks any scalar for its range.
-template <class Int>
-struct std::numeric_limits<tsubu::lattice<Int>> {
-    static constexpr bool is_specialized = true;
-    static constexpr tsubu::lattice<Int> lowest() noexcept { return {std::numeric_limits<Int>::lowest()}; }
-    static constexpr tsubu::lattice<Int>(min)() noexcept { return lowest(); }
-    static constexpr tsubu::lattice<Int>(max)() noexcept { return {(std::numeric_limits<Int>::max)()}; }
-};

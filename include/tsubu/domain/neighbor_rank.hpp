@@ -6,6 +6,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/domain/domain.hpp>
 
+#include <compare>  // operator<=>
 #include <cstddef>  // std::size_t
 
 namespace tsubu {

@@ -6,6 +6,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/domain/interval.hpp>
 
 #include <algorithm>  // std::max
 #include <array>      // std::array
@@ -20,13 +21,13 @@ namespace tsubu {
 ///
 /// @param extents  edge lengths of the box, above 0, in any unit.
 /// @throws input_error if ranks is 0, or an extent is not above 0 and finite.
-/// Complexity: one step for each pair of divisors.
+/// Complexity: O(ranks log log ranks), the sum of the divisors of ranks.
 template <std::size_t D, class Real>
 [[nodiscard]] std::array<std::size_t, D> rank_grid(std::size_t ranks, const vec<D, Real>& extents) {
     if (ranks == 0) detail::raise<input_error>("rank_grid", "0 ranks", "ask for at least 1");
     Real longest = 0;
     for (std::size_t k = 0; k < D; ++k) {
-        if (!(extents[k] > 0) || extents[k] - extents[k] != 0)
+        if (!(extents[k] > 0) || !detail::is_finite(extents[k]))
             detail::raise<input_error>("rank_grid",
                                        "the extent " + detail::shown(extents[k]) + " of axis " + detail::shown(k),
                                        "give finite lengths above 0");

@@ -27,8 +27,9 @@ namespace tsubu {
 ///     if (mine.owns(x)) ...
 ///     const auto count = mine.leavers(positions, left);   // left[0 .. count) have to go
 ///
-/// A value: it does not refer to the decomposition that made it. Its faces are those of its intervals of ownership, in
-/// real units. Every predicate takes one point, or many (see points), by the same arithmetic.
+/// A value: it does not refer to the decomposition that made it. Its faces are those of its part of the
+/// box [m]; a border policy may own a little more or less. Every predicate takes one point, or many (see points), by the
+/// same arithmetic.
 template <std::size_t D, class Scalar = double>
 class subdomain {
 public:
@@ -38,7 +39,7 @@ public:
     using points_type = points<D, const Scalar>;
     using real_points_type = points<D, const real_type>;
 
-    /// Made by a decomposition.
+    /// Made by a decomposition: the intervals owned [D], those owned_extended [D], and the faces in real units [D].
     subdomain(const std::array<interval<Scalar>, D>& owned, const std::array<interval<Scalar>, D>& owned_extended,
               const real_position_type& lo, const real_position_type& hi) noexcept
         : owned_(owned), extended_(owned_extended), lo_(lo), hi_(hi) {}
@@ -61,12 +62,12 @@ public:
         detail::inside(extended_, x, 0, x.size(), mask.data());
     }
     /// Writes the indices of the points that are not owned to the front of `left`, in increasing order.
-    /// @return how many.
+    /// @return how many; what is behind them in left has no meaning.
     /// @throws input_error if left is not as long as the points are many.
     std::size_t leavers(const points_type& x, std::span<index_t> left) const {
         detail::check_answers("subdomain::leavers", left.size(), x.size());
         std::size_t found = 0;
-        detail::each_outside(owned_, x, [&](std::size_t i, bool outside) {
+        detail::tell_outside(owned_, x, [&](std::size_t i, bool outside) {
             left[found] = static_cast<index_t>(i);  // no branch: the next leaver writes over it
             found += outside ? 1U : 0U;
         });
@@ -81,7 +82,7 @@ public:
     [[nodiscard]] bool clear_of_borders(const real_position_type& x, real_type d) const {
         return in(clear(filled(d)), x);
     }
-    /// mask[i] = 1 if point i is. @throws input_error as above, and if the lengths differ.
+    /// mask[i] = 1 if point i is clear. @throws input_error as above, and if the lengths differ.
     void clear_of_borders(const real_points_type& x, real_type d, std::span<unsigned char> mask) const {
         detail::check_answers("subdomain::clear_of_borders", mask.size(), x.size());
         detail::inside(clear(filled(d)), x, 0, x.size(), mask.data());
@@ -99,7 +100,7 @@ public:
             });
         });
     }
-    /// B7, B8; of equal edges that of the lowest axis.
+    /// The shortest edge [m] and its axis (B7, B8); of equal edges the lowest axis.
     [[nodiscard]] shortest_extent<real_type> min_extent() const noexcept {
         shortest_extent<real_type> shortest{hi_[0] - lo_[0], 0};
         for (std::size_t k = 1; k < D; ++k)

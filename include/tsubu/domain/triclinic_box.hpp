@@ -6,6 +6,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/domain/detail/checks.hpp>
 #include <tsubu/domain/detail/reduced_basis.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/domain.hpp>
@@ -40,7 +41,7 @@ namespace tsubu {
 ///     auto [y, shift] = box.wrap({1.8, 1.25, 0.5});         // y = (.3, .25, .5), shift = (1, 1, 0)
 ///     tsubu::brick_decomposition<3> bricks(box.cell(), 8);  // the owner of x: bricks.owner(box.to_cell(x))
 ///
-/// Members:      those of a domain for a point, in real units; and its cell, which is one.
+/// Concept:      box.
 /// Cost:         all O(1). to_cell D divisions and D (D - 1) / 2 fused products: each a call, if the instruction
 ///               set has none. minimum_image: D comparisons if the points are near, else up to 27 candidates.
 /// Choose it when the box is sheared, or the unit cell of a crystal. Do not when all tilts are 0: domain is exact at
@@ -153,9 +154,7 @@ public:
     /// ends at), and a few units in the last place for the rounding of to_cell. @throws input_error if the cutoff is
     /// negative or not finite.
     [[nodiscard]] position_type cell_reach(Scalar cutoff) const {
-        if (!(cutoff >= 0) || !detail::is_finite(cutoff))
-            detail::raise<input_error>("triclinic_box::cell_reach", "the cutoff " + detail::shown(cutoff),
-                                       "give a finite length of at least 0");
+        detail::check_cutoff("triclinic_box::cell_reach", cutoff);
         position_type reach{};
         for (std::size_t k = 0; k < D; ++k) {
             // 1 / height is the length of the gradient of fraction k, here times l_k: 1 along axis k, and upwards
@@ -284,6 +283,6 @@ private:
     detail::reduced_basis<D, Scalar> periods_;
 };
 
-static_assert(box<triclinic_box<2>> && box<triclinic_box<3, float>>);
+static_assert(reaching_box<triclinic_box<2>> && reaching_box<triclinic_box<3, float>>);
 
 }  // namespace tsubu

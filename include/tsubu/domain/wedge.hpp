@@ -7,6 +7,7 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/detail/checks.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/interval.hpp>
 
@@ -43,7 +44,7 @@ inline constexpr bool rotates_with_images<Field> = Field::rotates_with_images;
 /// Cell coordinates are (angle / sector angle, distance from the axis r [m], z [m]): periodic, never periodic, as
 /// asked. Shifts are (sectors, 0, periods of z); sectors modulo n are the same place.
 ///
-/// Members:      those of a domain for a point, in real units; and its cell, which is one.
+/// Concept:      box.
 /// Cost:         all O(1): an arc tangent and a root for to_cell, two of each for minimum_image, products for an image.
 /// Bytes:        2 n numbers in a table.
 /// Choose it when body and load are the same in every sector: a drum, a mill, a rotor. Do not when gravity is across
@@ -172,8 +173,10 @@ public:
     }
     /// How far a length reaches between two parts of the cell, along the angle, r and z. At a distance r from the axis,
     /// and an angle t away, a point is at least r sin t from everything there, and beyond a quarter turn at least r.
+    /// @throws input_error if the cutoff is negative or not finite.
     template <class Part>
-    [[nodiscard]] position_type cell_reach(Scalar cutoff, const Part& a, const Part& b) const noexcept {
+    [[nodiscard]] position_type cell_reach(Scalar cutoff, const Part& a, const Part& b) const {
+        detail::check_cutoff("wedge::cell_reach", cutoff);
         const Scalar inner = (std::max)(a.lo()[1], b.lo()[1]) * (1 - 16 * epsilon);
         const Scalar sectors_on = cutoff < inner ? std::asin(cutoff / inner) / angle_ * (1 + 16 * epsilon) + 8 * epsilon
                                                  : static_cast<Scalar>(sectors() / 2 + 1);
@@ -234,6 +237,6 @@ private:
     std::vector<turn> turns_;  // [n]: by 0 .. n - 1 sectors
 };
 
-static_assert(box<wedge<>> && box<wedge<float>>);
+static_assert(reaching_box<wedge<>> && cyclic_box<wedge<float>>);
 
 }  // namespace tsubu

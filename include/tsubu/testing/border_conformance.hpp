@@ -13,9 +13,7 @@
 #include <tsubu/domain/cuts.hpp>
 
 #include <algorithm>    // std::sort
-#include <cmath>        // std::nextafter
 #include <cstddef>      // std::size_t
-#include <limits>       // std::numeric_limits
 #include <string>       // std::string
 #include <string_view>  // std::string_view
 #include <vector>       // std::vector
@@ -51,13 +49,8 @@ void check_border(const Border& border, const cuts<Scalar>& where, Check&& check
             asked.push_back(x);
     }
     for (std::size_t i = asked.size(); i-- > 0;) {
-        if constexpr (is_lattice<Scalar>) {
-            asked.push_back(asked[i] + decltype(asked[i].value){1});
-            asked.push_back(asked[i] + decltype(asked[i].value){-1});
-        } else {
-            asked.push_back(std::nextafter(asked[i], all.first));
-            asked.push_back(std::nextafter(asked[i], all.last));
-        }
+        asked.push_back(detail::before(asked[i]));
+        asked.push_back(detail::after(asked[i]));
     }
     std::sort(asked.begin(), asked.end());
     asked.erase(std::unique(asked.begin(), asked.end()), asked.end());

@@ -5,13 +5,12 @@
 ///     tsubu::testing::check_box(my_box, 7, 1000, [](bool ok, std::string_view law) { ... });
 #pragma once
 
-#include <tsubu/core/error.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/testing/detail/coordinates.hpp>
 
-#include <algorithm>    // std::max, std::min
+#include <algorithm>    // std::max
 #include <cmath>        // std::abs, std::hypot
 #include <concepts>     // std::floating_point
 #include <cstddef>      // std::size_t
@@ -19,6 +18,7 @@
 #include <limits>       // std::numeric_limits
 #include <string>       // std::string
 #include <string_view>  // std::string_view
+#include <type_traits>  // std::remove_reference_t
 
 namespace tsubu::testing {
 
@@ -62,7 +62,8 @@ public:
     void examine(std::size_t points) {
         for (std::size_t k = 0; k < D; ++k) {  // half a period apart
             position at{};
-            for (std::size_t j = 0; j < D; ++j) at[j] = where_.cell().along(j).lo() + where_.cell().along(j).length() / 4;
+            for (std::size_t j = 0; j < D; ++j)
+                at[j] = where_.cell().along(j).lo() + where_.cell().along(j).length() / 4;
             const auto a = where_.from_cell(at);
             at[k] += where_.cell().along(k).length() / 2;
             examine_pair(a, where_.from_cell(at));
@@ -140,7 +141,7 @@ private:
             expect(shortest <= length_of(e) + rounding * (size_ + length_of(a)), law::shortest, what);
         }
         // Where images are turned, the two differ by the turn.
-        if constexpr (!requires { where_.same_image(from.shift); }) {
+        if constexpr (!cyclic_box<Box>) {
             const auto back = where_.minimum_image(b, a);
             bool is_opposite = true;
             for (std::size_t k = 0; k < D; ++k) is_opposite &= back[k] == -d[k];

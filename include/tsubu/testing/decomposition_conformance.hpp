@@ -17,7 +17,7 @@
 
 #include <algorithm>    // std::sort
 #include <array>        // std::array
-#include <cmath>        // std::hypot, std::nextafter, std::sqrt
+#include <cmath>        // std::hypot, std::sqrt
 #include <concepts>     // std::same_as
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t
@@ -219,26 +219,26 @@ private:
             examine_product(along, at, k + 1);
         }
     }
-    [[nodiscard]] scalar at_real(std::size_t k, real x) const {
+    [[nodiscard]] scalar at_real([[maybe_unused]] std::size_t k, real x) const {
         if constexpr (is_lattice<scalar>)
             return cell().along(k).from_real(x).position;
         else
-            return static_cast<void>(k), x;
+            return x;
     }
     [[nodiscard]] scalar last_of_same_owner(position at, std::size_t k, bool up) const {
         const auto owner_at = [&] { return parts_.owner(parts_.whole().from_cell(at)); };
         const auto owner = owner_at();
         const auto all = is_domain ? interval<scalar>::all() : cell().along(k).inside();
-        auto same = place_of(at[k]);
+        auto same = ordinal(at[k]);
         at[k] = up ? all.last : all.first;
         if (owner_at() == owner) return at[k];
-        auto other = place_of(at[k]);
+        auto other = ordinal(at[k]);
         for (auto middle = std::midpoint(same, other); middle != same && middle != other;
              middle = std::midpoint(same, other)) {
-            at[k] = at_place<scalar>(middle);
+            at[k] = at_ordinal<scalar>(middle);
             (owner_at() == owner ? same : other) = middle;
         }
-        return at_place<scalar>(same);
+        return at_ordinal<scalar>(same);
     }
 
     void examine_neighbors(real cutoff, std::size_t most_ranks) {
@@ -301,7 +301,7 @@ private:
     }
     /// The one name of an image that has several: in a wedge.
     [[nodiscard]] image_shift<D> same_image(const image_shift<D>& shift) const {
-        if constexpr (requires { parts_.whole().same_image(shift); })
+        if constexpr (cyclic_box<box_type>)
             return parts_.whole().same_image(shift);
         else
             return shift;

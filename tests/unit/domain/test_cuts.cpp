@@ -103,7 +103,7 @@ TEST_CASE("where the owner by a formula is the part beside", "[domain][B3][F3]")
         const cuts<double> where(seven, parts);
         CHECK(one_part_has(where, x));
         CHECK(where.owned(where.part_of(x)).contains(x));
-        static_cast<void>(by_formula);
+        CHECK(by_formula(x, parts) != where.part_of(x));
     }
     // Over all coordinates beside cuts, the formula alone must have been wrong somewhere: else this tests nothing.
     std::size_t wrong = 0;
@@ -258,4 +258,10 @@ TEST_CASE("every coordinate of a small axis, every number of parts that it admit
             shared = shared && one_part_has(where, lattice<std::int8_t>{static_cast<std::int8_t>(x)});
         CHECK(shared);
     }
+}
+
+TEST_CASE("one cut in braces is a cut, not a number of parts", "[domain][cuts]") {
+    CHECK(cuts<double>(axis<double>(0, 2, false), {0.5}).parts() == 2);
+    CHECK(cuts<double>(axis<double>(0, 2, false), {1}).begin(1) == 1);
+    CHECK(cuts<double>(axis<double>(0, 2, false), 3).parts() == 3);
 }

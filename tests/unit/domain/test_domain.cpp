@@ -127,6 +127,16 @@ TEST_CASE("many points are inside, or near a face, as each is", "[domain][B1][B9
     CHECK_THROWS_AS(box.near_periodic_face(x, 0.1F, std::span(near).first(3)), tsubu::input_error);
 }
 
+TEST_CASE("image counters stop at their ends, in a batch too", "[domain][wrap][batch]") {
+    const domain<1> box{{0}, {1}, {.periodic = {true}}};
+    std::vector<vec<1>> x = {{1e300}, {-1e300}, {1.5}};
+    std::vector<image_shift<1>> shift = {{1}, {-1}, {std::numeric_limits<std::int64_t>::max()}};
+    CHECK(box.wrap(x, shift) == 3);
+    CHECK(shift[0][0] == std::numeric_limits<std::int64_t>::max());
+    CHECK(shift[1][0] == std::numeric_limits<std::int64_t>::min());
+    CHECK(shift[2][0] == std::numeric_limits<std::int64_t>::max());
+}
+
 TEST_CASE("an image is moved by whole periods", "[domain][image]") {
     const domain<2> box{{0, 0}, {2, 0.5}, {.periodic = {true, true}}};
     CHECK(box.image({0.5, 0.25}, {-1, 3}) == vec<2>{-1.5, 1.75});
@@ -194,6 +204,7 @@ TEST_CASE("near a periodic face, on either side of it", "[domain][B9]") {
     for (const double x : {0.1, 0.5, 0.9}) CHECK_FALSE(box.near_periodic_face({x, 0.01}, 0.1));
     CHECK(box.near_periodic_face({0.5, 0.5}, 0.75));  // above half a box: everywhere
     CHECK_FALSE(box.near_periodic_face({0.5, 0.5}, 0));
+    CHECK(box.near_periodic_face({-100, 0.5}, 0.1));  // beyond it
     CHECK(box.near_periodic_face({0.5, 0.5}, infinity));
     CHECK_FALSE(domain<1>{{0}, {1}}.near_periodic_face({0}, 10));
     for (const double bad : {-1.0, -1e-300, not_a_number}) {

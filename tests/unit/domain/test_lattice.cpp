@@ -149,3 +149,9 @@ constexpr bool proved(std::integer_sequence<int, Eighths...>) {
 static_assert(proved(std::make_integer_sequence<int, 8>{}));
 
 }  // namespace
+
+TEST_CASE("no lattice coordinate lies above the box, whatever rounds", "[domain][lattice][F3]") {
+    const tsubu::axis<lattice<std::int64_t>> along(-3.1794960962080401, 7.69766158978954, true);
+    CHECK(along.to_real({std::numeric_limits<std::int64_t>::max()}) <= 7.69766158978954);
+    CHECK(along.to_real({std::numeric_limits<std::int64_t>::min()}) == -3.1794960962080401);
+}

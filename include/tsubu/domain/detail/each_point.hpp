@@ -5,7 +5,6 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/instruction_set.hpp>
-#include <tsubu/core/types.hpp>
 #include <tsubu/domain/detail/inside_columns.hpp>
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/lattice.hpp>
@@ -76,13 +75,14 @@ void inside(const std::array<interval<Scalar>, D>& box, const points<D, const Sc
     }
     std::size_t done = 0;
 #if defined(__x86_64__) && defined(__GNUC__)
-    if (x.are_columns() && best_instruction_set() != instruction_set::portable) {
-        using Number = decltype(comparable(Scalar{}));
-        column_question<D, Number> asked{{}, first, last};
-        for (std::size_t k = 0; k < D; ++k) asked.start[k] = reinterpret_cast<const Number*>(x.start(k)) + begin;
-        done = best_instruction_set() == instruction_set::avx512 ? inside_avx512(asked, count, mask)
-                                                                 : inside_avx2(asked, count, mask);
-    }
+    using Number = decltype(comparable(Scalar{}));
+    if constexpr (has_column_kernel<Number>)
+        if (x.are_columns() && best_instruction_set() != instruction_set::portable) {
+            column_question<D, Number> asked{{}, first, last};
+            for (std::size_t k = 0; k < D; ++k) asked.start[k] = reinterpret_cast<const Number*>(x.start(k)) + begin;
+            done = best_instruction_set() == instruction_set::avx512 ? inside_avx512(asked, count, mask)
+                                                                     : inside_avx2(asked, count, mask);
+        }
 #endif
     x.visit([&](auto at) {
         // Folds, not loops over k: g++ -O2 vectorises no loop around another.
@@ -100,15 +100,15 @@ void inside(const std::array<interval<Scalar>, D>& box, const points<D, const Sc
     });
 }
 
-/// Calls found(i) for the points that do not lie in the box, in increasing order.
-template <std::size_t D, class Scalar, class Found>
-void each_outside(const std::array<interval<Scalar>, D>& box, const points<D, const Scalar>& x, Found&& found) {
+/// Calls tell(i, outside) for every point, in increasing order: whether it lies outside the box.
+template <std::size_t D, class Scalar, class Tell>
+void tell_outside(const std::array<interval<Scalar>, D>& box, const points<D, const Scalar>& x, Tell&& tell) {
     constexpr std::size_t block = 1024;
     unsigned char mask[block];
     for (std::size_t begin = 0; begin < x.size(); begin += block) {
         const auto length = x.size() - begin < block ? x.size() - begin : block;
         inside(box, x, begin, length, mask);
-        for (std::size_t j = 0; j < length; ++j) found(begin + j, mask[j] == 0);
+        for (std::size_t j = 0; j < length; ++j) tell(begin + j, mask[j] == 0);
     }
 }
 

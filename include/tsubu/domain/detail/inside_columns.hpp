@@ -11,16 +11,22 @@
 
 #include <array>        // std::array
 #include <bit>          // std::bit_cast
+#include <concepts>     // std::floating_point, std::same_as
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
 #include <limits>       // std::numeric_limits
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::is_integral_v
 #include <utility>      // std::index_sequence
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 
 namespace tsubu::detail {
+
+/// The numbers that the kernels below are for; not the integers of a small lattice, made to be tried in full.
+template <class Number>
+inline constexpr bool has_column_kernel =
+    std::floating_point<Number> || std::same_as<Number, std::int32_t> || std::same_as<Number, std::int64_t>;
 
 /// Columns of numbers, and what of them is asked: first <= x <= last along each axis.
 template <std::size_t D, class Number>
@@ -148,7 +154,7 @@ template <class Int>
 }
 /// The least or the greatest integer of a face, which are two for zero.
 template <class Number>
-[[nodiscard]] constexpr auto place_of(Number face, bool greatest) noexcept {
+[[nodiscard]] constexpr auto integer_of_face(Number face, bool greatest) noexcept {
     using Int = std::conditional_t<sizeof(Number) == 8, std::int64_t, std::int32_t>;
     const auto bits = std::bit_cast<Int>(face);
     if constexpr (std::is_integral_v<Number>) return bits;
@@ -174,8 +180,8 @@ template <std::size_t D, class Number>
                                                                                 std::size_t count,
                                                                                 unsigned char* mask) noexcept {
     constexpr auto further_axes = std::make_index_sequence<D - 1>{};
-    const auto least = place_of(asked.first[0], false);
-    const auto greatest = place_of(asked.last[0], true);
+    const auto least = integer_of_face(asked.first[0], false);
+    const auto greatest = integer_of_face(asked.last[0], true);
     std::size_t i = 0;
     for (; i + 16 <= count; i += 16) {
         __mmask16 inside = 0;

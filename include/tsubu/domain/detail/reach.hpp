@@ -8,6 +8,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/axis.hpp>
+#include <tsubu/domain/detail/checks.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/neighbor_rank.hpp>
@@ -18,7 +19,6 @@
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::int64_t
 #include <limits>     // std::numeric_limits
-#include <string>     // std::to_string
 #include <vector>     // std::vector
 
 namespace tsubu::detail {
@@ -36,20 +36,6 @@ template <class Scalar>
     const bool is_last = part.last == along.inside().last;
     return stretch<typename axis<Scalar>::real_type>{along.to_real(part.first),
                                                      is_last ? along.real().hi() : along.to_real(after(part.last))};
-}
-
-/// @throws input_error if there is no such rank.
-inline void check_rank(const char* where, std::size_t rank, std::size_t ranks) {
-    if (rank >= ranks)
-        raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks),
-                           "ranks count from 0");
-}
-
-/// @throws input_error if the cutoff is negative, infinite or NaN.
-template <class Real>
-void check_cutoff(const char* where, Real cutoff) {
-    if (!(cutoff >= 0) || !is_finite(cutoff))
-        raise<input_error>(where, "the cutoff " + shown(cutoff), "give a finite length of at least 0");
 }
 
 /// An image that reaches, and the gap that remains at least, however its ends were rounded [m].
@@ -80,6 +66,7 @@ template <class Real>
         try_shift(0);
         return found;
     }
+    // 2^20: 50 MB of images along one axis; beyond it the unit of the cutoff is wrong.
     if (reach / along.length() > static_cast<Real>(1 << 20))
         raise<input_error>(where,
                            "the cutoff reaches " + shown(reach) + " along an axis, more than 2^20 periods of " +

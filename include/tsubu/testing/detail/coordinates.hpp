@@ -7,7 +7,6 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/lattice.hpp>
 
-#include <cmath>        // std::nextafter
 #include <cstdint>      // std::int64_t, std::uint64_t
 #include <limits>       // std::numeric_limits
 #include <type_traits>  // std::make_unsigned_t
@@ -17,25 +16,7 @@ namespace tsubu::detail {
 /// The coordinate beside x, up or down: nothing lies between them.
 template <class Scalar>
 [[nodiscard]] Scalar beside(Scalar x, bool up) {
-    if constexpr (is_lattice<Scalar>)
-        return x + static_cast<decltype(x.value)>(up ? 1 : -1);
-    else
-        return std::nextafter(x, up ? (std::numeric_limits<Scalar>::max)() : std::numeric_limits<Scalar>::lowest());
-}
-/// The place of a coordinate among all others: increasing, without gaps.
-template <class Scalar>
-[[nodiscard]] std::int64_t place_of(Scalar x) {
-    if constexpr (is_lattice<Scalar>)
-        return x.value;
-    else
-        return ordinal(x);
-}
-template <class Scalar>
-[[nodiscard]] Scalar at_place(std::int64_t place) {
-    if constexpr (is_lattice<Scalar>)
-        return {static_cast<decltype(Scalar{}.value)>(place)};
-    else
-        return at_ordinal<Scalar>(place);
+    return up ? after(x) : before(x);
 }
 /// A coordinate of any size: of floating point, any finite number.
 template <class Scalar>
@@ -45,9 +26,9 @@ template <class Scalar>
     if constexpr (is_lattice<Scalar>) {
         return {static_cast<decltype(lowest.value)>(random())};
     } else {
-        const auto most = static_cast<std::uint64_t>(place_of(highest));
+        const auto most = static_cast<std::uint64_t>(ordinal(highest));
         const auto place = static_cast<std::int64_t>(random.below(most + 1));
-        return at_place<Scalar>(random.below(2) == 0 ? place : -place);
+        return at_ordinal<Scalar>(random.below(2) == 0 ? place : -place);
     }
 }
 /// A coordinate between two others, these included.

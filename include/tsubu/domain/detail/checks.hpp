@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Refusals that several headers of the room share.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/domain/interval.hpp>
+
+#include <cstddef>  // std::size_t
+#include <string>   // std::to_string
+
+namespace tsubu::detail {
+
+/// @throws input_error if there is no such rank.
+inline void check_rank(const char* where, std::size_t rank, std::size_t ranks) {
+    if (rank >= ranks)
+        raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks),
+                           "ranks count from 0");
+}
+
+/// @throws input_error if the cutoff is negative, infinite or NaN.
+template <class Real>
+void check_cutoff(const char* where, Real cutoff) {
+    if (!(cutoff >= 0) || !is_finite(cutoff))
+        raise<input_error>(where, "the cutoff " + shown(cutoff), "give a finite length of at least 0");
+}
+
+}  // namespace tsubu::detail

@@ -113,6 +113,18 @@ struct low_side_is_lost : sound_bricks {
     }
 };
 
+/// Its faces are those of the box.
+struct faces_of_all : sound_bricks {
+    static constexpr const char* breaks = "law 1";
+    [[nodiscard]] tsubu::subdomain<2> subdomain(std::size_t rank) const {
+        const auto at = bricks_.place(rank);
+        return {box{bricks_.along(0).owned(at[0]), bricks_.along(1).owned(at[1])},
+                box{bricks_.along(0).owned_extended(at[0]), bricks_.along(1).owned_extended(at[1])},
+                {lo_x, 0},
+                {lo_x + length, 1}};
+    }
+};
+
 // --- law 2 ----------------------------------------------------------------------------------------------------------
 
 /// The formula alone, without a look at the cuts.
@@ -155,6 +167,19 @@ struct batch_by_formula : sound_bricks {
     static constexpr const char* breaks = "law 2";
     [[nodiscard]] rank_t owner(const position_type& x) const noexcept { return sound_bricks::owner(x); }
     void owner(const points<2>& x, std::span<rank_t> owners) const { owner_by_formula{}.owner(x, owners); }
+};
+
+/// Rows are read as if they were columns of one.
+struct rows_are_forgotten : sound_bricks {
+    static constexpr const char* breaks = "law 2";
+    struct part : tsubu::subdomain<2> {
+        using tsubu::subdomain<2>::owns;
+        void owns(const points<2>& x, std::span<unsigned char> mask) const {
+            tsubu::subdomain<2>::owns(x, mask);
+            if (!x.are_columns() && !mask.empty()) mask.back() = mask.back() == 0 ? 1 : 0;
+        }
+    };
+    [[nodiscard]] part subdomain(std::size_t rank) const { return {bricks_.subdomain(rank)}; }
 };
 
 // --- law 3 ----------------------------------------------------------------------------------------------------------
@@ -239,8 +264,9 @@ struct shift_of_wrong_sign : sound_bricks {
 };
 
 using decomposition_twins =
-    std::tuple<closed_upper_faces, gap_of_one_place, open_top, padded_face, two_extended_owners, low_side_is_lost,
-               owner_by_formula, ranks_swapped, owner_of_image, batch_by_formula, lost_corner, nearest_only,
-               no_self_image, neighbor_of_itself, named_twice, too_many, one_sided, shift_of_wrong_sign>;
+    std::tuple<closed_upper_faces, faces_of_all, rows_are_forgotten, gap_of_one_place, open_top, padded_face,
+               two_extended_owners, low_side_is_lost, owner_by_formula, ranks_swapped, owner_of_image, batch_by_formula,
+               lost_corner, nearest_only, no_self_image, neighbor_of_itself, named_twice, too_many, one_sided,
+               shift_of_wrong_sign>;
 
 }  // namespace tsubu::testing::broken

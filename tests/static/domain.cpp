@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Boxes and decompositions of every dimension and every scalar, each with all of its members.
+#include <tsubu/testing/archetypes.hpp>
 #include <tsubu/tsubu.hpp>
 
 #include <cstdint>
@@ -28,6 +29,7 @@ template class tsubu::subdomain<2, tsubu::lattice<long long>>;  // no kernel
 template class tsubu::subdomain<2, tsubu::lattice<std::int8_t>>;
 template class tsubu::brick_decomposition<3, double, tsubu::padded>;
 template class tsubu::brick_decomposition<2, float, tsubu::padded>;
+template class tsubu::brick_decomposition<2, double, tsubu::testing::minimal_border>;
 
 template class tsubu::triclinic_box<2, double>;
 template class tsubu::triclinic_box<3, float>;
@@ -38,7 +40,8 @@ template class tsubu::wedge<float>;
     template class tsubu::cell_subdomain<__VA_ARGS__>;                                                \
     template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>;     \
     template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>; \
-    static_assert(tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>>)
+    static_assert(tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>> && \
+                  tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>>)
 
 TSUBU_TEST_CELLS(2, double, tsubu::triclinic_box<2, double>);
 TSUBU_TEST_CELLS(3, float, tsubu::triclinic_box<3, float>);

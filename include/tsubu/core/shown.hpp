@@ -3,7 +3,10 @@
 /// Numbers as error messages show them.
 #pragma once
 
+#include <tsubu/core/vec.hpp>
+
 #include <charconv>  // std::to_chars
+#include <cstddef>   // std::size_t
 #include <string>    // std::string
 
 namespace tsubu::detail {
@@ -19,5 +22,13 @@ requires requires(char* at, Number x) { std::to_chars(at, at, x); }
 template <class Wrapper>
 requires requires(Wrapper x) { shown(x.value); }
 [[nodiscard]] std::string shown(Wrapper x) { return shown(x.value); }
+
+/// A point: (1, 2, 3).
+template <class Number, std::size_t D>
+[[nodiscard]] std::string shown(const vec<D, Number>& x) {
+    std::string text = "(";
+    for (std::size_t k = 0; k < D; ++k) text += (k == 0 ? "" : ", ") + shown(x[k]);
+    return text + ")";
+}
 
 }  // namespace tsubu::detail

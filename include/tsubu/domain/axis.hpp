@@ -49,7 +49,8 @@ public:
     using real_type = Scalar;  ///< the type of lengths
 
     /// @throws input_error unless lo < hi, both and hi - lo finite.
-    constexpr axis(Scalar lo, Scalar hi, bool periodic) : lo_(lo), hi_(hi), length_(hi - lo), periodic_(periodic) {
+    constexpr axis(Scalar lo, Scalar hi, bool periodic)
+        : lo_(lo), hi_(hi), last_(periodic ? detail::next_below(hi) : hi), length_(hi - lo), periodic_(periodic) {
         if (!detail::is_finite(lo) || !detail::is_finite(hi))
             detail::raise<input_error>("axis",
                                        "the face " + detail::shown(detail::is_finite(lo) ? hi : lo) +
@@ -70,9 +71,7 @@ public:
     [[nodiscard]] constexpr Scalar length() const noexcept { return length_; }
     [[nodiscard]] constexpr bool is_periodic() const noexcept { return periodic_; }
     /// The coordinates of the axis (B1).
-    [[nodiscard]] constexpr interval<Scalar> inside() const noexcept {
-        return {lo_, periodic_ ? detail::next_below(hi_) : hi_};
-    }
+    [[nodiscard]] constexpr interval<Scalar> inside() const noexcept { return {lo_, last_}; }
     [[nodiscard]] constexpr bool contains(Scalar x) const noexcept { return inside().contains(x); }
 
     /// The image of x on a periodic axis, and how many periods it was away; any other axis leaves x alone. What rounds
@@ -102,8 +101,12 @@ public:
         if (!periodic_ || (d <= length_ / 2 && d >= -length_ / 2)) return d;
         return std::remainder(d, length_);  // exact
     }
-    /// The shortest displacement from b to an image of a [m], for a - b that is finite.
-    [[nodiscard]] Scalar minimum_image(Scalar a, Scalar b) const noexcept { return minimum_image(a - b); }
+    /// The shortest displacement from b to an image of a [m]; if not periodic, a - b.
+    [[nodiscard]] Scalar minimum_image(Scalar a, Scalar b) const noexcept {
+        const Scalar d = a - b;
+        if (!periodic_ || detail::is_finite(d)) return minimum_image(d);
+        return minimum_image(std::remainder(a, length_) - std::remainder(b, length_));
+    }
 
 private:
     // Rounding may leave the period by one step: up to hi, which is lo of the next one, or below lo.
@@ -127,6 +130,7 @@ private:
 
     Scalar lo_;
     Scalar hi_;
+    Scalar last_;  // hi, or before it
     Scalar length_;
     bool periodic_;
 };
@@ -159,7 +163,6 @@ public:
     /// finite.
     [[nodiscard]] wrapped_coordinate<lattice<Int>> from_real(double x) const {
         const auto [position, shift] = real_.wrap(x);
-        constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());  // 2^b
         const double at = std::nearbyint((position - real_.lo()) / real_.length() * steps);
         if (at >= steps) return {lo(), detail::saturated_sum(shift, 1)};
         return {lo() + static_cast<Int>(static_cast<std::make_unsigned_t<Int>>(at)), shift};
@@ -167,7 +170,7 @@ public:
     /// The position of a lattice coordinate [m], in [lo, hi], the same on every machine: rounded once, or twice where
     /// b > 53.
     [[nodiscard]] double to_real(lattice<Int> at) const noexcept {
-        const double x = std::fma(from_lower_face(at), step(), real_.lo());
+        const double x = std::fma(from_lower_face(at) / steps, length(), real_.lo());
         return x < real_.hi() ? x : real_.hi();
     }
     /// Where a wrapped coordinate was [m], to within rounding, unless shift is at its end.
@@ -176,17 +179,17 @@ public:
     }
     /// The shortest displacement from b to a [m]; half a period is +L/2 to the higher coordinate, -L/2 to the lower.
     [[nodiscard]] constexpr double minimum_image(lattice<Int> a, lattice<Int> b) const noexcept {
-        const Int steps = a - b;
-        if (steps == std::numeric_limits<Int>::min()) return a > b ? length() / 2 : -length() / 2;
-        return static_cast<double>(steps) * step();
+        const Int way = a - b;
+        if (way == std::numeric_limits<Int>::min()) return a > b ? length() / 2 : -length() / 2;
+        return length_of(static_cast<double>(way));
     }
-
-    /// The length of one lattice step [m].
-    [[nodiscard]] constexpr double step() const noexcept {
-        return length() / (-2.0 * static_cast<double>(std::numeric_limits<Int>::min()));
-    }
+    /// The length of so many lattice steps [m].
+    [[nodiscard]] constexpr double length_of(double count) const noexcept { return count / steps * length(); }
 
 private:
+    // 2^b; a quotient by it is exact, and a product with L that comes after does not underflow.
+    static constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());
+
     [[nodiscard]] static constexpr double from_lower_face(lattice<Int> x) noexcept {
         return static_cast<double>(static_cast<std::make_unsigned_t<Int>>(
             static_cast<std::make_unsigned_t<Int>>(x.value) -

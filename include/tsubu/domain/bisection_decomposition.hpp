@@ -59,6 +59,9 @@ public:
                             std::span<const double> weights = {})
         : whole_(whole) {
         if (ranks == 0) detail::raise<input_error>("bisection_decomposition", "0 ranks", "ask for at least 1");
+        if (static_cast<double>(ranks) > detail::most_ranks)
+            detail::raise<input_error>("bisection_decomposition", detail::shown(ranks) + " ranks",
+                                       "ask for at most 2^31 - 1: no communicator has more");
         if (!weights.empty() && weights.size() != sample.size())
             detail::raise<input_error>("bisection_decomposition",
                                        std::to_string(weights.size()) + " weights for " +
@@ -141,18 +144,19 @@ private:
         const auto below_ranks = ranks / 2;
         const double portion =
             static_cast<double>(ranks) / static_cast<double>(below_ranks);  // 1 / the lower side's share
-        const auto [k, begin] = choose_cut(box, ranks, portion, members, sample, weights);
+        const auto cut = choose_cut(box, ranks, portion, members, sample, weights);
         const auto number = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.push_back({begin, static_cast<std::uint32_t>(k), 0, 0});
+        const auto k = cut.axis;
+        nodes_.push_back({cut.begin, static_cast<std::uint32_t>(k), 0, 0});
         std::vector<std::size_t> below;
         std::vector<std::size_t> above;
-        for (const auto i : members) (sample[i][k] < begin ? below : above).push_back(i);
+        for (const auto i : members) (sample[i][k] < cut.begin ? below : above).push_back(i);
         members = {};  // not needed any more while the sides are split
         auto side = box;
-        side[k].last = detail::before(begin);
+        side[k].last = detail::before(cut.begin);
         nodes_[number].below = split(side, below_ranks, below, sample, weights);
         side = box;
-        side[k].first = begin;
+        side[k].first = cut.begin;
         const auto upper = split(side, ranks - below_ranks, above, sample, weights);
         nodes_[number].above = upper;
         return number;
@@ -160,6 +164,7 @@ private:
     struct chosen_cut {
         std::size_t axis;
         Scalar begin;
+        double miss;  // of the wished weight below, as a share of all
     };
     /// Across the direction in which the sample is longest, else the box is, of those that can be cut so that each side
     /// has at least as many points as ranks.
@@ -177,6 +182,10 @@ private:
             if (spread[a] != spread[b]) return spread[a] > spread[b];
             return edge[a] != edge[b] ? edge[a] > edge[b] : a < b;
         });
+        // One stray particle can make any direction the longest: a cut there that misses by so much is compared with
+        // those along the others.
+        constexpr double good = 1.0 / 32;
+        chosen_cut best{D, {}, std::numeric_limits<double>::infinity()};
         for (const auto k : axes) {
             std::uint64_t across = 1;  // points with the same coordinate k; more than ranks are as good as ranks
             for (const auto other : axes)
@@ -188,11 +197,14 @@ private:
             if (below + above - 1 > steps_of(box[k])) continue;
             const interval<Scalar> begins{moved(box[k].first, static_cast<std::int64_t>(below)),
                                           moved(box[k].last, 1 - static_cast<std::int64_t>(above))};
-            return {k, cut_along(k, box[k], begins, portion, members, sample, weights)};
+            const auto cut = cut_along(k, box[k], begins, portion, members, sample, weights);
+            if (cut.miss < best.miss) best = cut;
+            if (best.miss <= good) break;
         }
+        if (best.axis != D) return best;
         detail::raise<input_error>("bisection_decomposition",
-                                   "a part with fewer points that the scalar tells apart than its " +
-                                       std::to_string(ranks) + " ranks must be divided again",
+                                   "a part has so few points that the scalar tells apart that no cut gives each of " +
+                                       std::to_string(ranks) + " ranks one",
                                    "ask for fewer ranks, or scale the unit of length");
     }
     /// From the lowest to the highest coordinate of the samples.
@@ -206,10 +218,16 @@ private:
         return range;
     }
     /// The coordinate where the upper side begins, one of `begins`: that of the sample nearest to the wished share.
-    Scalar cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double portion,
-                     std::vector<std::size_t>& members, std::span<const position_type> sample,
-                     std::span<const double> weights) const {
-        const auto weight = [&](std::size_t i) { return weights.empty() ? 1.0 : weights[i]; };
+    chosen_cut cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double portion,
+                         std::vector<std::size_t>& members, std::span<const position_type> sample,
+                         std::span<const double> weights) const {
+        // In units of the largest, so that no sum overflows.
+        double largest = 0;
+        for (const auto i : members)
+            if (!weights.empty()) largest = (std::max)(largest, weights[i]);
+        const auto weight = [&](std::size_t i) {
+            return weights.empty() ? 1.0 : largest > 0 ? weights[i] / largest : 0.0;
+        };
         // Of equal coordinates the lower index first: all ranks must find the same cut.
         std::sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
             return sample[a][k] < sample[b][k] || (sample[a][k] == sample[b][k] && a < b);
@@ -233,7 +251,8 @@ private:
             }
             below += weight(members[m]);
         }
-        return total > 0 && best > range.first ? best : geometric_cut(k, range, begins, portion);
+        if (total > 0 && best > range.first) return {k, best, least / total};
+        return {k, geometric_cut(k, range, begins, portion), total > 0 ? 1.0 : 0.0};
     }
     [[nodiscard]] Scalar geometric_cut([[maybe_unused]] std::size_t k, const interval<Scalar>& range,
                                        const interval<Scalar>& begins, double portion) const {
@@ -263,7 +282,7 @@ private:
     /// chooses no other axis.
     [[nodiscard]] real_type edge_of([[maybe_unused]] std::size_t k, const interval<Scalar>& range) const noexcept {
         if constexpr (is_lattice<Scalar>)
-            return static_cast<double>(steps_of(range)) * whole_.along(k).step();
+            return whole_.along(k).length_of(static_cast<double>(steps_of(range)));
         else
             return range.last - range.first;
     }

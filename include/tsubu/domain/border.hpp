@@ -48,18 +48,19 @@ static_assert(border_policy<exact, double> && border_policy<exact, lattice<int>>
 ///
 /// Concept:       border_policy in form only. It breaks law 1: it owns what lies up to epsilon outside, which is 10 %
 ///                of a box of 1e-7 m; and where epsilon vanishes beside an upper face that is closed (|x| >= 2^27 in
-///                double, >= 0.25 in float) nobody owns that face. Law 2: of two or more parts the first two both own the cut
-///                between them; of a single part nobody owns what lies below. Law 3: so with that cut, inside.
+///                double, >= 0.25 in float) nobody owns that face. Law 2: of two or more parts the first two both own
+///                the cut between them; of a single part nobody owns what lies below. Law 3: so with that cut, inside.
 /// Cost:          two comparisons.
 /// Choose it when results of a code that pads its faces are to be reproduced. Do not otherwise.
 /// Source:        B2, B3, B4 as printed.
 struct padded {
     double epsilon;  ///< [m]
 
-    /// @param width  [m]; 1e-8 is what LIGGGHTS has. @throws input_error if it is negative or NaN.
+    /// @param width  [m]; 1e-8 is what LIGGGHTS has. @throws input_error if it is negative or not finite.
     explicit padded(double width = 1e-8) : epsilon(width) {
-        if (!(width >= 0))
-            detail::raise<input_error>("padded", "epsilon = " + detail::shown(width), "give a length of at least 0");
+        if (!(width >= 0) || !detail::is_finite(width))
+            detail::raise<input_error>("padded", "epsilon = " + detail::shown(width),
+                                       "give a finite length of at least 0");
     }
 
     template <std::floating_point Scalar>

@@ -58,7 +58,9 @@ public:
     /// @throws input_error if it has 0 parts along an axis, or more than the scalar tells apart.
     brick_decomposition(const box_type& whole, const std::array<std::size_t, D>& grid) : whole_(whole) {
         cuts_.reserve(D);
-        for (std::size_t k = 0; k < D; ++k) cuts_.emplace_back(whole.along(k), grid[k]);
+        for (std::size_t k = 0; k < D; ++k)
+            detail::with_axis(k, "bricks", [&] { cuts_.emplace_back(whole.along(k), grid[k]); });
+        check_ranks();
     }
     /// Given cuts, one table per axis. @throws input_error if one of them is of another axis.
     brick_decomposition(const box_type& whole, std::array<cuts<Scalar>, D> where) : whole_(whole) {
@@ -73,6 +75,7 @@ public:
                                            "make them with domain::along(k)");
             cuts_.push_back(std::move(where[k]));
         }
+        check_ranks();
     }
 
     [[nodiscard]] const box_type& whole() const noexcept { return whole_; }
@@ -163,6 +166,14 @@ private:
         for (std::size_t k = 0; k < D; ++k) lengths[k] = whole.along(k).length();
         return lengths;
     }
+    void check_ranks() const {
+        double product = 1;
+        for (const auto& axis_cuts : cuts_) product *= static_cast<double>(axis_cuts.parts());
+        if (product > detail::most_ranks)
+            detail::raise<input_error>("brick_decomposition", detail::shown(product) + " bricks",
+                                       "make at most 2^31 - 1: no communicator has more ranks");
+    }
+
     box_type whole_;
     std::vector<cuts<Scalar>> cuts_;  // [D]
 };

@@ -79,7 +79,7 @@ concept subdomain_of =
 
 /// How a box is divided among ranks, the same on all of them.
 ///  1. subdomain(0) .. subdomain(ranks() - 1) own the box without gap or overlap: of all ranks one owns each point of
-///     it, and none any other; of owns_extended one each finite point, and none any other;
+///     it, and none any other; of owns_extended one each finite point, and none any other; lo() and hi() are its faces;
 ///  2. owner(x) is the rank whose owns_extended has x, bit for bit; for a point of the box so has its owns;
 ///  3. neighbors(rank, cutoff) has (other, shift) if some point of other's subdomain, moved by shift, lies within the
 ///     cutoff of some point of rank's; in a domain only then, rounding aside; never (rank, 0); each once, in increasing

@@ -107,16 +107,24 @@ private:
             return share < static_cast<Scalar>(last) ? static_cast<std::size_t>(share) : last;
         }
     }
+    // A part that begins at a closed face would have no width.
+    [[nodiscard]] constexpr bool is_below_top(Scalar x) const noexcept {
+        if constexpr (is_lattice<Scalar>)
+            return true;
+        else
+            return x < whole_.hi();
+    }
     constexpr void check(const char* kind) const {
         for (std::size_t k = 1; k < parts(); ++k)
-            if (!(begins_[k - 1] < begins_[k]) || !(begins_[k] <= whole_.inside().last))
-                detail::raise<input_error>(
-                    "cuts",
-                    std::string(kind) + ": part " + std::to_string(k) + " of " + std::to_string(parts()) +
-                        " begins at " + detail::shown(begins_[k]) + ", which does not lie between the begin of part " +
-                        std::to_string(k - 1) + ", " + detail::shown(begins_[k - 1]) + ", and the end of the axis, " +
-                        detail::shown(whole_.inside().last),
-                    "give cuts that increase inside the axis, or fewer parts than it has numbers");
+            if (!(begins_[k - 1] < begins_[k]) || !is_below_top(begins_[k]))
+                detail::raise<input_error>("cuts",
+                                           std::string(kind) + ": part " + std::to_string(k) + " of " +
+                                               std::to_string(parts()) + " begins at " + detail::shown(begins_[k]) +
+                                               ", which does not lie between the begin of part " +
+                                               std::to_string(k - 1) + ", " + detail::shown(begins_[k - 1]) +
+                                               ", and the end of the axis, " + detail::shown(whole_.inside().last),
+                                           "give cuts that increase inside the axis, without its faces; at most as "
+                                           "many parts as it has numbers");
     }
 
     axis<Scalar> whole_;

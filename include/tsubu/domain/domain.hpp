@@ -8,6 +8,7 @@
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/axis.hpp>
 #include <tsubu/domain/border.hpp>
+#include <tsubu/domain/detail/checks.hpp>
 #include <tsubu/domain/detail/each_point.hpp>
 #include <tsubu/domain/points.hpp>
 
@@ -180,7 +181,7 @@ public:
     [[nodiscard]] wrapped<D, Scalar> from_real(const real_position_type& x) const {
         wrapped<D, Scalar> result{};
         for (std::size_t k = 0; k < D; ++k) {
-            const auto [position, shift] = axes_[k].from_real(x[k]);
+            const auto [position, shift] = detail::with_axis(k, "domain", [&] { return axes_[k].from_real(x[k]); });
             result.position[k] = position;
             result.shift[k] = shift;
         }
@@ -198,11 +199,7 @@ private:
     domain(const real_position_type& lo, const real_position_type& hi, const options& with, std::index_sequence<K...>)
         : axes_{axis_of(K, lo[K], hi[K], with.periodic[K])...}, border_(with.border) {}
     static axis<Scalar> axis_of(std::size_t k, real_type lo, real_type hi, bool periodic) {
-        try {
-            return axis<Scalar>(lo, hi, periodic);
-        } catch (const input_error& wrong) {
-            throw input_error(wrong.what() + (" (axis " + std::to_string(k) + " of the domain)"));
-        }
+        return detail::with_axis(k, "domain", [&] { return axis<Scalar>(lo, hi, periodic); });
     }
 
     template <class Wider>

@@ -12,8 +12,22 @@
 #include <array>      // std::array
 #include <cstddef>    // std::size_t
 #include <limits>     // std::numeric_limits
+#include <vector>     // std::vector
 
 namespace tsubu {
+namespace detail {
+
+/// In increasing order. n is above 0.
+[[nodiscard]] inline std::vector<std::size_t> divisors_of(std::size_t n) {
+    std::vector<std::size_t> found;
+    for (std::size_t d = 1; d <= n / d; ++d)
+        if (n % d == 0) found.push_back(d);
+    for (std::size_t k = found.size(); k-- > 0;)
+        if (const auto other = n / found[k]; other != found[k]) found.push_back(other);
+    return found;
+}
+
+}  // namespace detail
 
 /// The factors p of the rank count, one per axis, that give the subdomains of a box the least surface: of all
 /// factorisations the one with the least sum of the areas of a subdomain's faces; of equal ones that with most ranks
@@ -21,7 +35,7 @@ namespace tsubu {
 ///
 /// @param extents  edge lengths of the box, above 0, in any unit.
 /// @throws input_error if ranks is 0, or an extent is not above 0 and finite.
-/// Complexity: O(ranks log log ranks), the sum of the divisors of ranks.
+/// Complexity: O(sqrt(ranks)), and one step for each pair of divisors.
 template <std::size_t D, class Real>
 [[nodiscard]] std::array<std::size_t, D> rank_grid(std::size_t ranks, const vec<D, Real>& extents) {
     if (ranks == 0) detail::raise<input_error>("rank_grid", "0 ranks", "ask for at least 1");
@@ -51,13 +65,13 @@ template <std::size_t D, class Real>
     if constexpr (D == 1) {
         consider({ranks});
     } else {
-        for (std::size_t first = 1; first <= ranks; ++first) {
-            if (ranks % first != 0) continue;
+        const auto divisors = detail::divisors_of(ranks);
+        for (const auto first : divisors) {
             const auto rest = ranks / first;
             if constexpr (D == 2) {
                 consider({first, rest});
             } else {
-                for (std::size_t second = 1; second <= rest; ++second)
+                for (const auto second : divisors)
                     if (rest % second == 0) consider({first, second, rest / second});
             }
         }

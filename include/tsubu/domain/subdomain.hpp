@@ -28,8 +28,8 @@ namespace tsubu {
 ///     const auto count = mine.leavers(positions, left);   // left[0 .. count) have to go
 ///
 /// A value: it does not refer to the decomposition that made it. Its faces are those of its part of the
-/// box [m]; a border policy may own a little more or less. Every predicate takes one point, or many (see points), by the
-/// same arithmetic.
+/// box [m]; a border policy may own a little more or less. Every predicate takes one point, or many (see points), by
+/// the same arithmetic.
 template <std::size_t D, class Scalar = double>
 class subdomain {
 public:

@@ -104,8 +104,9 @@ public:
     /// The image of x whose fraction of each periodic edge is in [0, 1), and how many edges it was away; the position
     /// is x itself if it was there already. Along edges that are not periodic x stays as far out as it is. From 2^62
     /// periods on, shift is at its end and the position anywhere in the cell.
-    /// @throws input_error if x is not finite, or so far out along an edge that is not periodic, and tilted, that no
-    ///         number beside it is inside.
+    /// @throws input_error if x is not finite, or so far out along an edge that is not periodic, and tilted, or the
+    /// cell
+    ///         tilted by so many lengths, that no number beside it is inside.
     [[nodiscard]] wrapped<D, Scalar> wrap(const position_type& x) const {
         for (std::size_t k = 0; k < D; ++k)
             if (!detail::is_finite(x[k]))
@@ -144,7 +145,7 @@ public:
         return image(at.position, at.shift);
     }
     /// The shortest displacement from b to an image of a [m], however strong the tilt; from a to b it is the opposite,
-    /// always. Its error is a few units in the last place of a - b, which must be finite.
+    /// always. Its error is a few units in the last place of a - b, which must be finite, also when told in edges.
     [[nodiscard]] position_type minimum_image(const position_type& a, const position_type& b) const noexcept {
         position_type d{};
         for (std::size_t k = 0; k < D; ++k) d[k] = a[k] - b[k];
@@ -264,8 +265,7 @@ private:
                 // 64 steps are the cell (see edges_of), so that 6 doublings cross it; the rest are for the edges.
                 if (tries == 12 || !(std::abs(fraction[k]) < most_periods))
                     detail::raise<input_error>("triclinic_box::wrap",
-                                               "no number beside the coordinate " + detail::shown(x[k]) + " on axis " +
-                                                   std::to_string(k) + " is in the cell",
+                                               "no number beside " + detail::shown(x) + " is in the cell",
                                                "find the particle with this position: it is far outside");
                 if (tries == 0 || fraction[k] >= 1) {
                     move_back(at, k, std::floor(fraction[k]));

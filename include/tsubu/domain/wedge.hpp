@@ -107,13 +107,18 @@ public:
     /// were there already. A point with r <= r_max has an image with r <= r_max, whatever rounds.
     /// @throws input_error if x, or its distance from the axis, is not finite.
     [[nodiscard]] wrapped<3, Scalar> wrap(const position_type& x) const {
-        const auto from = to_cell(x);
         for (std::size_t k = 0; k < 3; ++k)
-            if (!detail::is_finite(x[k]) || !detail::is_finite(from[k]))
+            if (!detail::is_finite(x[k]))
                 detail::raise<input_error>("wedge::wrap",
                                            "the coordinate " + detail::shown(x[k]) + " on axis " + std::to_string(k) +
-                                               " is not finite, or its distance from the axis is not",
+                                               " is not finite",
                                            "find the particle with this position: it was lost before");
+        const auto from = to_cell(x);
+        if (!detail::is_finite(from[1]))
+            detail::raise<input_error>("wedge::wrap",
+                                       "(" + detail::shown(x[0]) + ", " + detail::shown(x[1]) +
+                                           ") is farther from the axis than the scalar tells",
+                                       "find the particle with this position: it was lost before");
         wrapped<3, Scalar> at{x, {}};
         const auto [z, periods] = cell_.along(2).wrap(x[2]);
         at.position[2] = z;
@@ -160,7 +165,7 @@ public:
         const Scalar sectors_on = std::nearbyint(to_cell(b)[0] - to_cell(a)[0]);
         auto d = turned_about_axis(a, std::abs(sectors_on) > 0 ? static_cast<std::int64_t>(sectors_on) : 0);
         for (std::size_t k = 0; k < 2; ++k) d[k] -= b[k];
-        d[2] = cell_.along(2).minimum_image(a[2] - b[2]);
+        d[2] = cell_.along(2).minimum_image(a[2], b[2]);
         return d;
     }
 

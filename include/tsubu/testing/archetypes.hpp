@@ -4,6 +4,9 @@
 #pragma once
 
 #include <tsubu/core/types.hpp>
+#include <tsubu/domain/border.hpp>
+#include <tsubu/domain/cuts.hpp>
+#include <tsubu/domain/interval.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/id_range.hpp>
 
@@ -66,5 +69,18 @@ private:
 static_assert(id_storage<minimal_id_storage<>>);
 static_assert(!batched_lookup<minimal_id_storage<>> && !prefetchable<minimal_id_storage<>> &&
               !parallel_rebuild<minimal_id_storage<>>);
+
+/// The least that is a border_policy: a decomposition asks for no more. It owns as exact does.
+struct minimal_border {
+    template <class Scalar>
+    [[nodiscard]] interval<Scalar> owned(const cuts<Scalar>& where, std::size_t part) const {
+        return where.owned(part);
+    }
+    template <class Scalar>
+    [[nodiscard]] interval<Scalar> owned_extended(const cuts<Scalar>& where, std::size_t part) const {
+        return where.owned_extended(part);
+    }
+};
+static_assert(border_policy<minimal_border, double>);
 
 }  // namespace tsubu::testing

@@ -108,7 +108,7 @@ private:
         return shift;
     }
     void examine(const position& x) {
-        const auto what = [&] { return shown_point(x); };
+        const auto what = [&] { return shown(x); };
         const bool inside = where_.contains(x);
         expect(inside == where_.cell().contains(where_.to_cell(x)), law::contains, what);
         const auto [y, shift] = where_.wrap(x);
@@ -116,7 +116,7 @@ private:
         bool is_wrapped = true;
         for (std::size_t k = 0; k < D; ++k)
             is_wrapped &= !where_.cell().along(k).is_periodic() || where_.cell().along(k).contains(at[k]);
-        expect(is_wrapped, law::wrapped, [&, y = y] { return shown_point(x) + " became " + shown_point(y); });
+        expect(is_wrapped, law::wrapped, [&, to = y] { return shown(x) + " became " + shown(to); });
         expect(!inside || (y == x && shift == image_shift<D>{}), law::untouched, what);
         bool is_countable = true;  // beyond 2^53 periods no number tells one from the next
         for (const auto n : shift) is_countable &= n < (std::int64_t{1} << 53) && n > -(std::int64_t{1} << 53);
@@ -127,11 +127,11 @@ private:
         for (const auto coordinate : x) largest = (std::max)(largest, std::abs(coordinate));
         bool is_back = true;
         for (std::size_t k = 0; k < D; ++k) is_back &= std::abs(back[k] / largest - x[k] / largest) <= rounding;
-        expect(is_back, law::image, [&] { return shown_point(x) + " came back as " + shown_point(back); });
+        expect(is_back, law::image, [&] { return shown(x) + " came back as " + shown(back); });
     }
     void examine_pair(const position& a, const position& b) {
         const auto d = where_.minimum_image(a, b);
-        const auto what = [&] { return shown_point(a) + " from " + shown_point(b) + ": " + shown_point(d); };
+        const auto what = [&] { return shown(a) + " from " + shown(b) + ": " + shown(d); };
         const auto shortest = length_of(d);
         const auto from = where_.wrap(a);
         for (int i = 0; i < 20; ++i) {
@@ -152,11 +152,6 @@ private:
         scalar length = 0;
         for (const auto component : d) length = std::hypot(length, component);
         return length;
-    }
-    [[nodiscard]] static std::string shown_point(const position& x) {
-        std::string text = "(";
-        for (std::size_t k = 0; k < D; ++k) text += (k == 0 ? "" : ", ") + shown(x[k]);
-        return text + ")";
     }
     template <class What>
     void expect(bool kept, const char* text, What&& what) {

@@ -37,6 +37,7 @@ struct decomposition_law {
 
     static constexpr const char* owned = "law 1: one rank owns a point of the domain, and none any other";
     static constexpr const char* extended = "law 1: owns_extended of one rank has any finite point";
+    static constexpr const char* faces = "law 1: a rank owns its lower corner, and the point before its upper one";
     static constexpr const char* not_finite = "law 1: no rank owns what is not finite";
     static constexpr const char* owner = "law 2: owner is the rank whose owns_extended has the point";
     static constexpr const char* owner_inside = "law 2: of a point of the domain, owner is the rank that owns it";
@@ -82,6 +83,12 @@ public:
                 along[k] = {at_real(k, lo), at_real(k, hi), cell().along(k).inside().first,
                             cell().along(k).inside().last};
             }
+            if constexpr (is_domain && !is_lattice<scalar>) {
+                auto last = subdomains_[rank].hi();
+                for (auto& coordinate : last) coordinate = before(coordinate);
+                expect(subdomains_[rank].owns(subdomains_[rank].lo()) && subdomains_[rank].owns(last), law::faces,
+                       [&] { return "rank " + shown(rank); });
+            }
             for (std::size_t k = 0; k < D; ++k) {
                 // Where owner changes, whatever the subdomain says about its faces.
                 for (const bool up : {false, true}) along[k].push_back(last_of_same_owner(middle, k, up));
@@ -108,18 +115,19 @@ public:
             for (std::size_t k = 0; k < D; ++k) x[k] = any_coordinate<scalar>(random_);
             examine(x);
         }
-        examine_batch(0, parts_.ranks());
         if constexpr (!is_lattice<scalar>) {
             constexpr auto infinity = std::numeric_limits<scalar>::infinity();
             for (std::size_t k = 0; k < D; ++k)
                 for (const auto bad : {std::numeric_limits<scalar>::quiet_NaN(), infinity, -infinity}) {
                     position x = random_point([&](std::size_t j) { return cell().along(j).inside(); });
                     x[k] = bad;
+                    asked_.push_back(x);
                     for (const auto& mine : subdomains_)
                         expect(!mine.owns(x) && !mine.owns_extended(x), law::not_finite,
                                [&] { return shown_point(x); });
                 }
         }
+        examine_batch(0, parts_.ranks());
     }
     /// No, small, equal, and large cutoffs.
     void examine_neighbors() {
@@ -127,8 +135,9 @@ public:
         auto thinnest = box;
         for (const auto& mine : subdomains_)
             for (std::size_t k = 0; k < D; ++k) thinnest = (std::min)(thinnest, mine.hi()[k] - mine.lo()[k]);
-        for (const auto cutoff : {real{0}, thinnest / 3, beside(thinnest, false), thinnest, beside(thinnest, true),
-                                  thinnest * real{2.5}, box / 2, box / 2 + box / 16, 2 * box + box / 4}) {
+        for (const auto cutoff :
+             {real{0}, thinnest / 3, beside(thinnest, false), thinnest, beside(thinnest, true), thinnest * real{2.5},
+              box / 2, box / 2 + box / 16, 2 * box + box / 4, (D == 1 ? 12 : 0) * box}) {
             // Large ones give every rank as neighbour of every other, many times: some ranks stand for all.
             if (cutoff <= (std::numeric_limits<real>::max)() / 4) examine_neighbors(cutoff, cutoff > box ? 4 : 16);
         }
@@ -168,37 +177,47 @@ private:
     /// All points that were asked one by one, at once: the answers of the ranks from `first` to before `end`, and of
     /// owner, must be the same.
     void examine_batch(std::size_t first, std::size_t end) {
-        const auto count = asked_.size();
         std::array<std::vector<scalar>, D> column;
         typename points<D, const scalar>::columns columns{};
         for (std::size_t k = 0; k < D; ++k) {
             for (const auto& x : asked_) column[k].push_back(x[k]);
             columns[k] = column[k];
         }
-        const auto same = [&](bool kept, std::size_t i) {
-            expect(kept, law::batch, [&] { return shown_point(asked_[i]); });
-        };
+        for (const points<D, const scalar>& many :
+             {points<D, const scalar>(columns), points<D, const scalar>(asked_)}) {
+            for (auto rank = first; rank < end; ++rank) examine_batch(subdomains_[rank], many);
+            std::vector<rank_t> owners(many.size());
+            parts_.owner(many, owners);
+            for (std::size_t i = 0; i < many.size(); ++i)
+                expect(!is_finite_point(asked_[i]) || owners[i] == parts_.owner(asked_[i]), law::batch,
+                       [&] { return shown_point(asked_[i]); });
+        }
+    }
+    template <class Part>
+    void examine_batch(const Part& mine, const points<D, const scalar>& many) {
+        const auto count = many.size();
         std::vector<unsigned char> owned(count);
         std::vector<unsigned char> extended(count);
         std::vector<index_t> left(count);
-        std::vector<rank_t> owners(count);
-        for (auto rank = first; rank < end; ++rank) {
-            const auto& mine = subdomains_[rank];
-            mine.owns(columns, owned);
-            mine.owns_extended(columns, extended);
-            const auto leavers = mine.leavers(asked_, left);
-            std::size_t leaver = 0;
-            for (std::size_t i = 0; i < count; ++i) {
-                const bool is_mine = mine.owns(asked_[i]);
-                const bool has_left = leaver < leavers && left[leaver] == static_cast<index_t>(i);
-                same((owned[i] != 0) == is_mine && (extended[i] != 0) == mine.owns_extended(asked_[i]) &&
-                         has_left == !is_mine,
-                     i);
-                leaver += has_left ? 1U : 0U;
-            }
+        mine.owns(many, owned);
+        mine.owns_extended(many, extended);
+        const auto leavers = mine.leavers(many, left);
+        std::size_t leaver = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool is_mine = mine.owns(asked_[i]);
+            const bool has_left = leaver < leavers && left[leaver] == static_cast<index_t>(i);
+            expect((owned[i] != 0) == is_mine && (extended[i] != 0) == mine.owns_extended(asked_[i]) &&
+                       has_left == !is_mine,
+                   law::batch, [&] { return shown_point(asked_[i]); });
+            leaver += has_left ? 1U : 0U;
         }
-        parts_.owner(asked_, owners);
-        for (std::size_t i = 0; i < count; ++i) same(owners[i] == parts_.owner(asked_[i]), i);
+        expect(leaver == leavers, law::batch, [&] { return std::string("too many leavers"); });
+    }
+    [[nodiscard]] static bool is_finite_point(const position& x) {
+        if constexpr (!is_lattice<scalar>)
+            for (const auto coordinate : x)
+                if (!is_finite(coordinate)) return false;
+        return true;
     }
     void examine_product(const std::array<std::vector<scalar>, D>& along, position& at, std::size_t k) {
         if (k == D) {
@@ -241,11 +260,11 @@ private:
         return at_ordinal<scalar>(same);
     }
 
-    void examine_neighbors(real cutoff, std::size_t most_ranks) {
+    void examine_neighbors(real cutoff, std::size_t asked_ranks) {
         const auto ranks = parts_.ranks();
         std::vector<neighbors_of_rank> known(ranks);
         for (std::size_t rank = 0; rank < ranks; ++rank) known[rank] = parts_.neighbors(rank, cutoff);
-        const auto stride = ranks / most_ranks + 1;
+        const auto stride = ranks / asked_ranks + 1;
         for (std::size_t rank = random_.below(stride); rank < ranks; rank += stride) {
             const auto& found = known[rank];
             const auto at = [&] { return "rank " + shown(rank) + " of " + shown(ranks) + ", cutoff " + shown(cutoff); };
@@ -258,7 +277,7 @@ private:
                 image_shift<D> back{};
                 for (std::size_t k = 0; k < D; ++k) back[k] = -shift[k];
                 expect(other < ranks && has(known[other], {static_cast<rank_t>(rank), same_image(back)}), law::mutual,
-                       [&, other = other] { return at() + ", neighbour " + shown(other); });
+                       [&, named = other] { return at() + ", neighbour " + shown(named); });
             }
             auto sorted = found;
             std::sort(sorted.begin(), sorted.end());
@@ -295,8 +314,9 @@ private:
             const bool itself = other == rank && image == image_shift<D>{};
             expect(itself || std::binary_search(found.begin(), found.end(),
                                                 neighbor_rank<D>{static_cast<rank_t>(other), image}),
-                   law::complete,
-                   [&, y = y] { return "rank " + shown(rank) + ", cutoff " + shown(cutoff) + ", " + shown_point(y); });
+                   law::complete, [&, met = y] {
+                       return "rank " + shown(rank) + ", cutoff " + shown(cutoff) + ", " + shown_point(met);
+                   });
         }
     }
     /// The one name of an image that has several: in a wedge.

@@ -309,3 +309,9 @@ constexpr bool every_number_wraps() {
 static_assert(every_number_wraps());
 
 }  // namespace
+
+TEST_CASE("the nearest image of points whose distance overflows", "[domain][minimum_image][F4]") {
+    const axis<double> unit(0, 1, true);
+    CHECK(std::abs(unit.minimum_image(1e308, -1e308)) <= 0.5);
+    CHECK(unit.minimum_image(1e308, -1e308) == -unit.minimum_image(-1e308, 1e308));
+}

@@ -72,6 +72,27 @@ TEST_CASE("a layer at the bottom of a tall box is cut across, not along", "[doma
     }
 }
 
+TEST_CASE("a few stray particles do not decide where the rest is cut", "[domain][bisection]") {
+    std::vector<vec<3>> layer;
+    for (int i = 0; i < 64; ++i)
+        for (int j = 0; j < 64; ++j) layer.push_back({i / 64.0, j / 64.0, 25});
+    layer.push_back({0.5, 0.5, 1});
+    layer.push_back({0.5, 0.5, 49});
+    const domain<3> tall{{0, 0, 0}, {1, 1, 50}};
+    for (const std::size_t ranks : {2U, 4U, 8U}) {
+        const auto load = loads(bisection_decomposition<3>(tall, ranks, layer), layer);
+        CAPTURE(ranks);
+        CHECK(*std::max_element(load.begin(), load.end()) <= 1.1 * 4098 / static_cast<double>(ranks));
+    }
+}
+
+TEST_CASE("huge weights are balanced as small ones", "[domain][bisection]") {
+    const auto sample = heap(2000);
+    const std::vector<double> weights(sample.size(), 1e306);
+    const auto load = loads(bisection_decomposition<3>(cube, 4, sample, weights), sample);
+    for (const auto n : load) CHECK(std::abs(n - 500) <= 8);
+}
+
 TEST_CASE("weights count, not points", "[domain][bisection]") {
     const auto sample = heap(4000);
     std::vector<double> weights(sample.size());

@@ -118,6 +118,6 @@ TEST_CASE("padding of no width is the exact one inside, half-open above", "[doma
 }
 
 TEST_CASE("a padding that is negative or not a number is refused", "[domain][border][input]") {
-    CHECK(says(thrown<tsubu::input_error>([] { padded(-1); }), "tsubu::padded: epsilon = -1; give a length"));
+    CHECK(says(thrown<tsubu::input_error>([] { padded(-1); }), "tsubu::padded: epsilon = -1; give a finite length"));
     CHECK(says(thrown<tsubu::input_error>([] { padded(std::nan("")); }), "tsubu::padded: epsilon = nan"));
 }

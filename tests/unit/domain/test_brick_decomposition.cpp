@@ -143,7 +143,7 @@ TEST_CASE("a rank that does not exist is refused", "[domain][brick][input]") {
 
 TEST_CASE("more ranks than cells, and grids of nothing, are refused", "[domain][brick][input][F3]") {
     const domain<1> few{{1e16}, {1e16 + 4}};
-    CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<1>(few, 8); }), "fewer parts than it has numbers"));
+    CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<1>(few, 8); }), "at most as many parts as it has numbers"));
     CHECK_NOTHROW(brick_decomposition<1>(few, 2));
     CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<3>(closed_cube, 0); }), "0 ranks"));
     CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<3>(closed_cube, grid3{2, 0, 1}); }), "0 parts"));
@@ -167,4 +167,12 @@ TEST_CASE("a lattice has the same owner for an image as for the point", "[domain
     const brick_decomposition<2, lattice<std::int64_t>> bricks(box, 6);
     for (const double x : {0.0, 0.1, 0.33, 0.75})
         CHECK(bricks.owner(box.from_real({x, 0.5}).position) == bricks.owner(box.from_real({x + 4, -0.5}).position));
+}
+
+TEST_CASE("more bricks than a communicator has ranks are refused", "[domain][bricks][input]") {
+    const auto text = thrown<tsubu::input_error>([] {
+        static_cast<void>(brick_decomposition<3>(closed_cube, grid3{100'000, 100'000, 1}));
+    });
+    INFO(text);
+    CHECK(says(text, "tsubu::brick_decomposition: 1e+10 bricks; make at most 2^31 - 1"));
 }

@@ -155,3 +155,12 @@ TEST_CASE("no lattice coordinate lies above the box, whatever rounds", "[domain]
     CHECK(along.to_real({std::numeric_limits<std::int64_t>::max()}) <= 7.69766158978954);
     CHECK(along.to_real({std::numeric_limits<std::int64_t>::min()}) == -3.1794960962080401);
 }
+
+TEST_CASE("a lattice is as fine in the smallest of boxes", "[domain][lattice][F3]") {
+    for (const double length : {1e-290, 1e-300, 1e-305}) {
+        const tsubu::axis<lattice<std::int64_t>> along(0, length, true);
+        const auto at = along.from_real(0.75 * length).position;
+        CHECK(along.to_real(at) == Approx(0.75 * length).epsilon(1e-12));
+        CHECK(along.minimum_image(at, along.from_real(0.5 * length).position) == Approx(0.25 * length).epsilon(1e-12));
+    }
+}

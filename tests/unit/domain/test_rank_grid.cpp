@@ -80,3 +80,10 @@ TEST_CASE("no ranks and no box are refused", "[domain][rank_grid][input]") {
         CHECK(says(text, "the extent " + tsubu::detail::shown(bad) + " of axis 1; give finite lengths above 0"));
     }
 }
+
+TEST_CASE("the grid of very many ranks is found at once", "[domain][rank_grid]") {
+    CHECK(tsubu::rank_grid<1, double>(999'999'937, {1}) == std::array<std::size_t, 1>{999'999'937});
+    const auto grid = tsubu::rank_grid<3, double>(367'567'200, {1, 1, 1});
+    CHECK(grid[0] * grid[1] * grid[2] == 367'567'200);
+    CHECK(grid[0] < 2 * grid[2]);  // close to a cube
+}

@@ -8,6 +8,7 @@
 #include <tsubu/core/random.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -199,6 +200,17 @@ TEST_CASE("clear of borders: far enough from both faces, inside", "[domain][B6][
         CHECK(says(text, "tsubu::subdomain::clear_of_borders: the distance " + tsubu::detail::shown(bad) +
                              " on axis 1; give"));
     }
+}
+
+TEST_CASE("a margin above half the width leaves nothing, in a batch too", "[domain][B6][batch][F3]") {
+    const auto mine = brick_decomposition<1>({{0}, {1}}, 2).subdomain(0);
+    const std::vector<double> x(70, 0.45);
+    std::vector<unsigned char> mask(x.size());
+    each_instruction_set{}.run([&] {
+        mask.assign(x.size(), 7);
+        mine.clear_of_borders({{x}}, 0.4, mask);
+        CHECK(std::count(mask.begin(), mask.end(), 0) == 70);
+    });
 }
 
 TEST_CASE("face distance: to the nearest plane, from either side", "[domain][B6][F3]") {

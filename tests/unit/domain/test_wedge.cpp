@@ -2,6 +2,7 @@
 #include <tsubu/domain/wedge.hpp>
 
 #include "support/catch.hpp"
+#include "unit/thrown.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
@@ -196,8 +197,14 @@ TEMPLATE_TEST_CASE("the minimum image is the shortest over all sectors and perio
 
 TEST_CASE("a wedge that is none is refused", "[domain][wedge]") {
     CHECK_THROWS_AS(wedge<>(0, {0, 0}, 1, 0, 1, true), tsubu::input_error);
-    CHECK_THROWS_AS(wedge<>(1, {0, 0}, 1, 0, 1, true), tsubu::input_error);
-    CHECK_THROWS_AS(wedge<>(65537, {0, 0}, 1, 0, 1, true), tsubu::input_error);
+    const auto text = [](auto&& make) { return thrown<tsubu::input_error>(make); };
+    CHECK(says(text([] { wedge<>(1, {0, 0}, 1, 0, 1, true); }), "tsubu::wedge: 1 sectors; give 2 to 65536"));
+    CHECK(says(text([] { wedge<>(65537, {0, 0}, 1, 0, 1, true); }), "tsubu::wedge: 65537 sectors; give 2 to 65536"));
+    CHECK(says(text([] { wedge<>(6, {0, 0}, -1, 0, 1, true); }), "tsubu::wedge: r_max = -1; give a finite length"));
+    CHECK(says(text([] { static_cast<void>(wedge<>(6, {0, 0}, 1, 0, 1, true).wrap({0, not_a_number, 0})); }),
+               "tsubu::wedge::wrap: the coordinate nan on axis 1 is not finite; find the particle"));
+    CHECK(says(text([] { static_cast<void>(wedge<>(6, {0, 0}, 1, 0, 1, true).wrap({1.7e308, 1.7e308, 0})); }),
+               "is farther from the axis than the scalar tells"));
     for (const double r_max : {0.0, -1.0, infinity, not_a_number})
         CHECK_THROWS_AS(wedge<>(6, {0, 0}, r_max, 0, 1, true), tsubu::input_error);
     for (const double at : {1e16, infinity, not_a_number})

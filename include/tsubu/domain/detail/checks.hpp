@@ -8,7 +8,7 @@
 #include <tsubu/domain/interval.hpp>
 
 #include <cstddef>  // std::size_t
-#include <string>   // std::to_string
+#include <string>   // std::string
 
 namespace tsubu::detail {
 
@@ -24,6 +24,20 @@ template <class Real>
 void check_cutoff(const char* where, Real cutoff) {
     if (!(cutoff >= 0) || !is_finite(cutoff))
         raise<input_error>(where, "the cutoff " + shown(cutoff), "give a finite length of at least 0");
+}
+
+/// As many as an int of MPI counts.
+inline constexpr double most_ranks = 2147483647;
+
+/// Calls make(); what it says of wrong input is told with the axis.
+/// @throws input_error
+template <class Make>
+decltype(auto) with_axis(std::size_t k, const char* whose, Make&& make) {
+    try {
+        return make();
+    } catch (const input_error& wrong) {
+        throw input_error(std::string(wrong.what()) + " (axis " + std::to_string(k) + " of the " + whose + ")");
+    }
 }
 
 }  // namespace tsubu::detail

@@ -12,7 +12,7 @@
 
 #include <array>    // std::array
 #include <cstddef>  // std::size_t
-#include <cstring>  // std::memcpy
+#include <cstring>  // std::memcpy, std::memset
 #include <span>     // std::span
 #include <string>   // std::to_string
 #include <utility>  // std::index_sequence
@@ -73,6 +73,11 @@ void inside(const std::array<interval<Scalar>, D>& box, const points<D, const Sc
         first[k] = comparable(box[k].first);
         last[k] = comparable(box[k].last);
     }
+    for (std::size_t k = 0; k < D; ++k)
+        if (!(first[k] <= last[k])) {  // nothing is; the kernels count from first to last
+            std::memset(mask, 0, count);
+            return;
+        }
     std::size_t done = 0;
 #if defined(__x86_64__) && defined(__GNUC__)
     using Number = decltype(comparable(Scalar{}));

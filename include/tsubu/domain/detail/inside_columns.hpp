@@ -9,6 +9,8 @@
 /// numbers, which other pipes of the processor compare meanwhile.
 #pragma once
 
+#include <tsubu/domain/interval.hpp>
+
 #include <array>        // std::array
 #include <bit>          // std::bit_cast
 #include <concepts>     // std::floating_point, std::same_as
@@ -157,9 +159,16 @@ template <class Number>
 [[nodiscard]] constexpr auto integer_of_face(Number face, bool greatest) noexcept {
     using Int = std::conditional_t<sizeof(Number) == 8, std::int64_t, std::int32_t>;
     const auto bits = std::bit_cast<Int>(face);
-    if constexpr (std::is_integral_v<Number>) return bits;
-    if (face == 0) return greatest ? Int{0} : Int{-1};
-    return bits < 0 ? static_cast<Int>(bits ^ std::numeric_limits<Int>::max()) : bits;
+    if constexpr (!std::is_integral_v<Number>) {
+        if (face == 0) {
+            // All that this thread takes for 0.
+            Int others = 0;  // not const: that would be decided at compile time, where no thread is asked
+            if (denormals_are_zero()) others = std::bit_cast<Int>((std::numeric_limits<Number>::min)()) - 1;
+            return greatest ? others : static_cast<Int>(-1 - others);
+        }
+        if (bits < 0) return static_cast<Int>(bits ^ std::numeric_limits<Int>::max());
+    }
+    return bits;
 }
 
 /// Axis 0 as integers from `least` to `greatest`, for whose sake the loop does not compute them; the others as they

@@ -87,6 +87,7 @@ template <class Domain, class Decomposition, class Reach>
                                     Reach&& reach, bool is_round) {
     using Real = typename Domain::real_type;
     constexpr std::size_t D = Domain::dimension;
+    constexpr std::size_t most_neighbors = std::size_t{1} << 26;  // 2 GB of them
     check_rank(where, rank, parts.ranks());
     const auto mine = parts.subdomain(rank);
     std::vector<neighbor_rank<D>> found;
@@ -102,6 +103,9 @@ template <class Domain, class Decomposition, class Reach>
         const auto combine = [&](auto&& self, std::size_t k, Real square) -> void {
             if (k == D) {
                 if (other != rank || shift != image_shift<D>{}) found.push_back({static_cast<rank_t>(other), shift});
+                if (found.size() > most_neighbors)
+                    raise<input_error>(where, "the cutoff reaches more than 2^26 images of ranks",
+                                       "take a smaller cutoff, or a larger box");
                 return;
             }
             for (const auto& image : images[k]) {

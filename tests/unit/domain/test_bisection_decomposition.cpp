@@ -161,7 +161,7 @@ TEST_CASE("as many ranks as there are points, and no more", "[domain][bisection]
     for (std::size_t rank = 0; rank < 4; ++rank) CHECK(full.owner({static_cast<double>(rank) * step}) == rank);
     const auto text = thrown<tsubu::input_error>([&] { bisection_decomposition<1>(four, 5, {}); });
     INFO(text);
-    CHECK(says(text, "tsubu::bisection_decomposition: a part with fewer points"));
+    CHECK(says(text, "tsubu::bisection_decomposition: a part has so few points"));
     CHECK(says(text, "ask for fewer ranks"));
     const domain<1, lattice<std::int8_t>> small{{0}, {1}, {.periodic = {true}}};
     CHECK(bisection_decomposition<1, lattice<std::int8_t>>(small, 256, {}).ranks() == 256);

@@ -77,7 +77,7 @@ struct counts_down : sound_box {
     static constexpr const char* breaks = "law 3";
     [[nodiscard]] tsubu::wrapped<2, double> wrap(const vec<2>& x) const {
         auto at = sound_box::wrap(x);
-        for (auto& n : at.shift) n = -n;
+        for (auto& n : at.shift) n = -(n % 1000);
         return at;
     }
 };

@@ -116,11 +116,11 @@ def claims_on_partition(results):
         for scales, field, what in ((small, "wrong_outside", "points outside that a rank owns"),
                                     (large, "wrong_inside", "points inside that no rank owns")):
             span = f"{scale_name(scales[0])} to {scale_name(scales[-1])}" if scales else "its ends"
-            claim = Claim(f"padded, {scalar}: {what}, at {span}", 1, "")
+            claim = Claim(f"padded, {scalar} (expected to be wrong): {what}, at {span}", 1, "")
             for scale in scales:
                 claim.add(results.partitions[(scalar, "padded", scale)][field], f"box of {scale_name(scale)}")
             claims.append(claim)
-        claim = Claim(f"padded, {scalar}: points without exactly one extended owner, at every scale", 1, "")
+        claim = Claim(f"padded, {scalar} (expected to be wrong): points without exactly one extended owner, at every scale", 1, "")
         for scale in measured:
             claim.add(results.partitions[(scalar, "padded", scale)]["wrong_extended"], f"box of {scale_name(scale)}")
         claims.append(claim)
@@ -183,7 +183,7 @@ def partition_chart(results, field, title, pyplot):
                       linestyle="-" if is_padded else (0, (4, 2)), label=f"{border}, {name}",
                       markerfacecolor=colour if is_padded else "none", markevery=1 if is_padded else 4,
                       zorder=4 if is_padded else 3)
-    axes.set(xlabel="edge of the box [m]", ylabel="share of the points that are wrong")
+    axes.set(xlabel="edge of the box [m]", ylabel="wrong, of points chosen near faces")
     axes.set_ylim(LEAST / 1.7, 1.6)
     axes.set_yticks([LEAST, 1e-3, 1e-2, 1e-1, 1], ["0", "0.1 %", "1 %", "10 %", "100 %"])
     axes.set_xticks([1e-300, 1e-200, 1e-100, 1, 1e100, 1e200, 1e300],
@@ -382,9 +382,10 @@ def links(results):
 PARTITION_TEXT = (
     "Boxes [0, s) in one and two dimensions, in 4 and 7 parts, not periodic. Asked are all faces and cuts, the "
     "numbers next to them, and for each box 1000 random points inside and 1000 within a tenth of s outside. A point "
-    "is wrong where its owners are not one inside the box and none outside. The padded faces of the notes, epsilon "
-    "1e-8 m, are wrong at both ends; between them still for what lies within epsilon outside, and for the cut between "
-    "the first two parts, which owns_extended gives to both.")
+    "is wrong where its owners are not one inside the box and none outside. So the "
+    "share is one of points chosen to be hard, not of particles. The padded faces, with the epsilon of LIGGGHTS, 1e-8 m, "
+    "are wrong at both ends; between them still for what lies within epsilon outside. Their owns_extended gives the cut "
+    "between the first two parts to both, and nobody what lies below a single part.")
 TIME_TEXT = (
     "Three dimensions, 8 ranks (2 × 2 × 2), points in random order; median (lowest–highest). Columns begin at cache "
     "lines. Each wrap moves the same points as the one before: two boxes, half a box apart, take turns. No point of a "

@@ -39,6 +39,21 @@ struct shifted_when_extended : tsubu::exact {
     }
 };
 
+/// lo < x <= hi instead of lo <= x < hi: sound by itself, but owner() asks the cuts.
+struct closed_upwards : tsubu::exact {
+    [[nodiscard]] interval<double> owned(const cuts<double>& where, std::size_t part) const noexcept {
+        return shifted(where.owned(part), where, part);
+    }
+    [[nodiscard]] interval<double> owned_extended(const cuts<double>& where, std::size_t part) const noexcept {
+        return shifted(where.owned_extended(part), where, part);
+    }
+    [[nodiscard]] static interval<double> shifted(interval<double> range, const cuts<double>& where, std::size_t part) {
+        if (part > 0) range.first = std::nextafter(range.first, 1e300);
+        if (part + 1 < where.parts()) range.last = std::nextafter(range.last, 1e300);
+        return range;
+    }
+};
+
 template <class Border>
 std::set<std::string> broken_by(const Border& border, std::size_t parts) {
     std::set<std::string> laws;
@@ -55,7 +70,8 @@ TEST_CASE("a broken border policy is caught by the number of its law", "[domain]
     CHECK(broken_by(tsubu::exact{}, 5) == laws{});
     CHECK(broken_by(closed_above{}, 5) == laws{"law 1", "law 3"});
     CHECK(broken_by(extended_overlaps{}, 5) == laws{"law 2", "law 3"});
-    CHECK(broken_by(shifted_when_extended{}, 5) == laws{"law 3"});
+    CHECK(broken_by(shifted_when_extended{}, 5) == laws{"law 3", "law 4"});
+    CHECK(broken_by(closed_upwards{}, 5) == laws{"law 4"});
     CHECK(broken_by(tsubu::padded{}, 5) == laws{"law 1", "law 2", "law 3"});
 }
 

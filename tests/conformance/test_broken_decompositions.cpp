@@ -58,6 +58,6 @@ TEST_CASE("the text of a broken law names the point, its owners and the seed", "
     INFO(seen.first);
     CHECK(seen.first.rfind("law 1: ", 0) == 0);
     CHECK(seen.first.find("x = ") != std::string::npos);
-    CHECK(seen.first.find("is owned by 0, extended by 0 ranks, its owner is ") != std::string::npos);
+    CHECK(seen.first.find("0 ranks own it, 0 by owns_extended; owner says rank ") != std::string::npos);
     CHECK(seen.first.find("seed 77") != std::string::npos);
 }

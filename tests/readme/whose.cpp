@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: MIT
 #include <tsubu/tsubu.hpp>
 
+#include <span>
 #include <vector>
 
 int main() {
-    const tsubu::domain<3> box{{0, 0, 0}, {1, 1, 1}, {.periodic = {true, true, false}}};
-    const tsubu::brick_decomposition<3> bricks(box, 12);  // on the process grid of least surface
-    const auto [y, shift] = box.wrap({1.25, -0.5, 0.5});  // (.25, .5, .5), and (1, -1, 0) periods
-    const auto mine = bricks.subdomain(bricks.owner(y));
-    std::vector<tsubu::vec<3>> positions = {{0.26, 0.51, 0.51}, y, {1, 1, 1}, {0.9, 0.1, 0.1}};
-    std::vector<tsubu::index_t> left(positions.size());
-    const auto leavers = mine.leavers(positions, left);            // left[0 .. leavers) are not mine
-    const auto around = bricks.neighbors(bricks.owner(y), 0.1);    // ranks near, each with the shift of its image
-    const auto d = box.minimum_image({0.95, 0, 0}, {0.05, 0, 0});  // -0.1 along x: across the face
-    return mine.owns(y) && leavers == 2 && left[0] == 2 && !around.empty() && d[0] < 0 ? 0 : 1;
+    const tsubu::domain<3> box{{-1, 0, 0}, {1, 2, 5}, {.periodic = {true, true, false}}};  // lower, upper corner
+    const tsubu::brick_decomposition bricks(box, 12);                                      // ranks
+    const auto mine = bricks.subdomain(7);
+    std::vector<double> x = {-0.9, 0.2, 7.5}, y = {1.5, -0.1, 1}, z = {4, 1, 0.3};
+    std::vector<tsubu::image_shift<3>> images(x.size());  // counts the periods, as image flags do
+
+    // Each step: wrap, find who left, find to whom.
+    box.wrap({{x, y, z}}, images);
+    std::vector<tsubu::index_t> left(x.size());
+    left.resize(mine.leavers({{x, y, z}}, left));
+    for (const auto k : left) {
+        const auto i = static_cast<std::size_t>(k);
+        const auto rank = bricks.owner({x[i], y[i], z[i]});  // 7 itself: it left through a face that is not periodic
+        if (rank >= bricks.ranks()) return 1;
+    }
+    // Ghosts: what lies near a neighbour's subdomain, moved by shift, goes there; there it is moved by -shift.
+    for (const auto& [rank, shift] : bricks.neighbors(7, 0.1))
+        if (rank == 7 && shift == tsubu::image_shift<3>{}) return 1;
+    const auto ghost = box.image({0.5, 1, 1}, {-1, 0, 0});        // {-1.5, 1, 1}
+    const auto d = box.minimum_image({0.9, 0, 1}, {-0.9, 0, 1});  // from the second to the first: -0.2 along x
+    return images[2][0] == 4 && ghost[0] == -1.5 && d[0] < 0 ? 0 : 1;
 }

@@ -50,12 +50,13 @@ public:
     using position_type = typename box_type::position_type;
     static constexpr std::size_t dimension = D;
 
-    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box do not count.
+    /// @param sample   positions of particles, of all or of a fair choice of them; those outside the box do not
+    ///                 count. The same on all ranks: with MPI, gather a few thousand of each.
     ///                 Where no sample lies, a cut halves the volume.
     /// @param weights  of each, at least 0; empty: all 1.
     /// @throws input_error if ranks is 0, a weight is negative or not finite, the lengths differ, or a part has too few
-    ///         numbers along every axis to be cut.
-    bisection_decomposition(const box_type& whole, std::size_t ranks, std::span<const position_type> sample,
+    ///         numbers along every axis to be cut, or positions are given and none is inside.
+    bisection_decomposition(const box_type& whole, std::size_t ranks, const points<D, const Scalar>& sample,
                             std::span<const double> weights = {})
         : whole_(whole) {
         if (ranks == 0) detail::raise<input_error>("bisection_decomposition", "0 ranks", "ask for at least 1");
@@ -76,6 +77,10 @@ public:
         inside.reserve(sample.size());
         for (std::size_t i = 0; i < sample.size(); ++i)
             if (whole.contains(sample[i])) inside.push_back(i);
+        if (inside.empty() && sample.size() != 0)
+            detail::raise<input_error>("bisection_decomposition",
+                                       "none of " + std::to_string(sample.size()) + " positions is inside the box",
+                                       "give positions of this box: to_cell(x), if it is the cell of another; or none");
         region box{};
         for (std::size_t k = 0; k < D; ++k) box[k] = whole.along(k).inside();
         leaves_.reserve(ranks);
@@ -102,8 +107,9 @@ public:
         detail::owners_of("bisection_decomposition::owner", *this, x, owners);
     }
     /// @throws input_error if there is no such rank.
-    [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
-        detail::check_rank("bisection_decomposition::subdomain", rank, ranks());
+    template <std::integral Rank>
+    [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(Rank which) const {
+        const auto rank = detail::checked_rank("bisection_decomposition::subdomain", which, ranks());
         const auto& owned = leaves_[rank];
         auto extended = owned;
         vec<D, real_type> lo{};
@@ -119,7 +125,8 @@ public:
         return {owned, extended, lo, hi};
     }
     /// As brick_decomposition::neighbors.
-    [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
+    template <std::integral Rank>
+    [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(Rank rank, real_type cutoff) const {
         return detail::neighbors_within("bisection_decomposition::neighbors", *this, rank, cutoff);
     }
 
@@ -136,7 +143,7 @@ private:
 
     /// @return the node, or the leaf, of this region.
     std::uint32_t split(const region& box, std::size_t ranks, std::vector<std::size_t>& members,
-                        std::span<const position_type> sample, std::span<const double> weights) {
+                        const points<D, const Scalar>& sample, std::span<const double> weights) {
         if (ranks == 1) {
             leaves_.push_back(box);
             return static_cast<std::uint32_t>(leaves_.size() - 1) | leaf;
@@ -169,7 +176,7 @@ private:
     /// Across the direction in which the sample is longest, else the box is, of those that can be cut so that each side
     /// has at least as many points as ranks.
     chosen_cut choose_cut(const region& box, std::size_t ranks, double portion, std::vector<std::size_t>& members,
-                          std::span<const position_type> sample, std::span<const double> weights) const {
+                          const points<D, const Scalar>& sample, std::span<const double> weights) const {
         std::array<std::size_t, D> axes{};
         std::iota(axes.begin(), axes.end(), std::size_t{0});
         vec<D, real_type> edge{};
@@ -209,7 +216,7 @@ private:
     }
     /// From the lowest to the highest coordinate of the samples.
     [[nodiscard]] static interval<Scalar> range_of(std::size_t k, const std::vector<std::size_t>& members,
-                                                   std::span<const position_type> sample) {
+                                                   const points<D, const Scalar>& sample) {
         interval<Scalar> range{sample[members[0]][k], sample[members[0]][k]};
         for (const auto i : members) {
             range.first = (std::min)(range.first, sample[i][k]);
@@ -219,7 +226,7 @@ private:
     }
     /// The coordinate where the upper side begins, one of `begins`: that of the sample nearest to the wished share.
     chosen_cut cut_along(std::size_t k, const interval<Scalar>& range, const interval<Scalar>& begins, double portion,
-                         std::vector<std::size_t>& members, std::span<const position_type> sample,
+                         std::vector<std::size_t>& members, const points<D, const Scalar>& sample,
                          std::span<const double> weights) const {
         // In units of the largest, so that no sum overflows.
         double largest = 0;

@@ -17,7 +17,8 @@ namespace tsubu {
 /// Which coordinates a part owns.
 ///  1. owned: of all parts of an axis exactly one owns each x inside the axis, none any other x (B3);
 ///  2. owned_extended: of all parts exactly one owns each finite x (B4, B5);
-///  3. what a part owns inside the axis is the same by both.
+///  3. what a part owns inside the axis is the same by both;
+///  4. owned_extended of part_of(x) has x: a border may move no cut, since owner() asks the cuts alone.
 template <class Border, class Scalar>
 concept border_policy = std::semiregular<Border> &&
     requires(const Border& border, const cuts<Scalar>& where, std::size_t part) {
@@ -27,7 +28,7 @@ concept border_policy = std::semiregular<Border> &&
 
 /// Ownership by the table of cuts alone.
 ///
-/// Concept:       border_policy, laws 1 to 3 at every scale and for every scalar.
+/// Concept:       border_policy, laws 1 to 4 at every scale and for every scalar.
 /// Cost:          two comparisons.
 /// Choose it when results of a code that pads its faces need not be reproduced. Do not when they must: padded.
 /// Source:        B2 as decided, B3, B4.

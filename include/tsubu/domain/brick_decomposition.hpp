@@ -133,8 +133,9 @@ public:
         });
     }
     /// @throws input_error if there is no such rank.
-    [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(std::size_t rank) const {
-        detail::check_rank("brick_decomposition::subdomain", rank, ranks());
+    template <std::integral Rank>
+    [[nodiscard]] tsubu::subdomain<D, Scalar> subdomain(Rank which) const {
+        const auto rank = detail::checked_rank("brick_decomposition::subdomain", which, ranks());
         const auto at = place(rank);
         std::array<interval<Scalar>, D> owned{};
         std::array<interval<Scalar>, D> extended{};
@@ -152,7 +153,8 @@ public:
     /// The ranks, and images of ranks, within a cutoff of one, itself included where an image of it is. Any cutoff:
     /// more than a brick, more than the box. @throws input_error if the cutoff is negative or not finite, or there is
     /// no such rank.
-    [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(std::size_t rank, real_type cutoff) const {
+    template <std::integral Rank>
+    [[nodiscard]] std::vector<neighbor_rank<D>> neighbors(Rank rank, real_type cutoff) const {
         return detail::neighbors_within("brick_decomposition::neighbors", *this, rank, cutoff);
     }
 

@@ -132,14 +132,16 @@ public:
         detail::owners_of("cell_decomposition::owner", *this, x, owners);
     }
     /// @throws input_error if there is no such rank.
-    [[nodiscard]] cell_subdomain<Box> subdomain(std::size_t rank) const {
-        detail::check_rank("cell_decomposition::subdomain", rank, ranks());
+    template <std::integral Rank>
+    [[nodiscard]] cell_subdomain<Box> subdomain(Rank which) const {
+        const auto rank = detail::checked_rank("cell_decomposition::subdomain", which, ranks());
         return {box_, parts_.subdomain(rank)};
     }
     /// As those of the decomposition of the cell; may name ranks that are a little too far, since a distance in the
     /// cell is only a bound of that in the box.
     /// @throws input_error if the cutoff is negative or not finite, or there is no such rank.
-    [[nodiscard]] std::vector<neighbor_rank<dimension>> neighbors(std::size_t rank, real_type cutoff) const {
+    template <std::integral Rank>
+    [[nodiscard]] std::vector<neighbor_rank<dimension>> neighbors(Rank rank, real_type cutoff) const {
         constexpr auto where = "cell_decomposition::neighbors";
         detail::check_cutoff(where, cutoff);
         auto found = detail::neighbors_within(

@@ -122,7 +122,7 @@ private:
                                                std::to_string(parts()) + " begins at " + detail::shown(begins_[k]) +
                                                ", which does not lie between the begin of part " +
                                                std::to_string(k - 1) + ", " + detail::shown(begins_[k - 1]) +
-                                               ", and the end of the axis, " + detail::shown(whole_.inside().last),
+                                               ", and the end of the axis, " + detail::shown(whole_.real().hi()),
                                            "give cuts that increase inside the axis, without its faces; at most as "
                                            "many parts as it has numbers");
     }

@@ -41,6 +41,8 @@ public:
     using row = std::conditional_t<std::is_const_v<Scalar>, const vec<D, std::remove_const_t<Scalar>>, vec<D, Scalar>>;
     using columns = std::array<std::span<Scalar>, D>;
 
+    /// None.
+    points() noexcept = default;
     /// @throws input_error if the columns differ in length.
     points(const columns& x) : count_(x[0].size()), are_columns_(true) {
         for (std::size_t k = 0; k < D; ++k) {

@@ -47,9 +47,10 @@ inline constexpr bool rotates_with_images<Field> = Field::rotates_with_images;
 /// Concept:      box.
 /// Cost:         all O(1): an arc tangent and a root for to_cell, two of each for minimum_image, products for an image.
 /// Bytes:        2 n numbers in a table.
-/// Choose it when body and load are the same in every sector: a drum, a mill, a rotor. Do not when gravity is across
-///               the axis: that differs from sector to sector. The arc tangent is that of the machine: its last bit,
-///               and so the owner of a point on a face, may differ on ranks of another kind.
+/// Choose it when body and load are the same in every sector: a rotor, a shear cell, a vertical drum. Do not when
+///               gravity is across the axis, as in a horizontal drum: that differs from sector to sector. The arc
+///               tangent is that of the machine: its last bit, and so the owner of a point on a face, may differ on ranks
+///               of another kind.
 ///
 /// Threads: any number of readers; nothing changes after construction.
 template <std::floating_point Scalar = double>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Does a border policy keep its three laws on a given axis? A suite for any test framework, or none.
+/// Does a border policy keep its four laws on a given axis? A suite for any test framework, or none.
 ///
 ///     tsubu::testing::check_border(my_border{}, tsubu::cuts(axis, 8), [](bool ok, std::string_view law) { ... });
 ///
@@ -26,12 +26,13 @@ struct border_law {
 
     static constexpr const char* owned = "law 1: one part owns a coordinate inside the axis, and none any other";
     static constexpr const char* extended = "law 2: owned_extended of one part has any finite coordinate";
+    static constexpr const char* of_cuts = "law 4: owned_extended of the part that the cuts tell has the coordinate";
     static constexpr const char* same = "law 3: inside the axis a part owns the same by both";
 };
 
-/// Does this border policy keep laws 1 to 3 for these parts of an axis?
+/// Does this border policy keep laws 1 to 4 for these parts of an axis?
 ///
-/// @param check  called as check(bool kept, std::string_view law), three times per coordinate; a broken law with the
+/// @param check  called as check(bool kept, std::string_view law), four times per coordinate; a broken law with the
 ///               coordinate behind its text
 /// Complexity: O(parts^2).
 template <class Scalar, border_policy<Scalar> Border, class Check>
@@ -74,6 +75,7 @@ void check_border(const Border& border, const cuts<Scalar>& where, Check&& check
         report(owners == (is_inside ? 1U : 0U), border_law::owned, x);
         report(extended_owners == 1, border_law::extended, x);
         report(!is_inside || same, border_law::same, x);
+        report(extended[where.part_of(x)].contains(x), border_law::of_cuts, x);
     }
 }
 

@@ -166,8 +166,8 @@ private:
         const bool inside = parts_.whole().contains(x);
         const auto owner = parts_.owner(x);
         const auto found = [&] {
-            return shown_point(x) + (inside ? ", inside" : ", outside") + ", is owned by " + shown(owners) +
-                   ", extended by " + shown(extended) + " ranks, its owner is " + shown(owner);
+            return shown_point(x) + (inside ? ", inside" : ", outside") + ": " + shown(owners) +
+                   " ranks own it, " + shown(extended) + " by owns_extended; owner says rank " + shown(owner);
         };
         expect(owners == (inside ? 1U : 0U), law::owned, found);
         expect(extended == 1, law::extended, found);

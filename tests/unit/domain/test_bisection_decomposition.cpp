@@ -7,6 +7,7 @@
 #include <tsubu/core/random.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -166,6 +167,31 @@ TEST_CASE("as many ranks as there are points, and no more", "[domain][bisection]
     const domain<1, lattice<std::int8_t>> small{{0}, {1}, {.periodic = {true}}};
     CHECK(bisection_decomposition<1, lattice<std::int8_t>>(small, 256, {}).ranks() == 256);
     CHECK_THROWS_AS((bisection_decomposition<1, lattice<std::int8_t>>(small, 257, {})), tsubu::input_error);
+}
+
+TEST_CASE("a sample of another box is refused", "[domain][bisection][input]") {
+    const std::vector<vec<3>> elsewhere = {{5, 5, 5}, {7, 7, 7}};
+    const auto text = thrown<tsubu::input_error>([&] { bisection_decomposition<3>(cube, 4, elsewhere); });
+    INFO(text);
+    CHECK(says(text,
+               "tsubu::bisection_decomposition: none of 2 positions is inside the box; give positions of this box"));
+}
+
+TEST_CASE("a sample in columns is as good as one in rows", "[domain][bisection][batch]") {
+    const auto sample = heap(500);
+    std::array<std::vector<double>, 3> column;
+    for (const auto& x : sample)
+        for (std::size_t k = 0; k < 3; ++k) column[k].push_back(x[k]);
+    const bisection_decomposition<3> rows(cube, 7, sample);
+    const bisection_decomposition<3> columns(cube, 7, {{column[0], column[1], column[2]}});
+    for (const auto& x : sample) CHECK(rows.owner(x) == columns.owner(x));
+}
+
+TEST_CASE("a rank may be an int, as MPI has it", "[domain][bisection][input]") {
+    const bisection_decomposition<3> parts(cube, 4, {});
+    const int mine = 3;
+    CHECK(parts.subdomain(mine).lo() == parts.subdomain(std::size_t{3}).lo());
+    CHECK(says(thrown<tsubu::input_error>([&] { static_cast<void>(parts.neighbors(-1, 0.1)); }), "rank -1 of 4"));
 }
 
 TEST_CASE("bad samples are refused", "[domain][bisection][input]") {

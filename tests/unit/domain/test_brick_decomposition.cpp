@@ -143,7 +143,8 @@ TEST_CASE("a rank that does not exist is refused", "[domain][brick][input]") {
 
 TEST_CASE("more ranks than cells, and grids of nothing, are refused", "[domain][brick][input][F3]") {
     const domain<1> few{{1e16}, {1e16 + 4}};
-    CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<1>(few, 8); }), "at most as many parts as it has numbers"));
+    CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<1>(few, 8); }),
+               "at most as many parts as it has numbers"));
     CHECK_NOTHROW(brick_decomposition<1>(few, 2));
     CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<3>(closed_cube, 0); }), "0 ranks"));
     CHECK(says(thrown<tsubu::input_error>([&] { brick_decomposition<3>(closed_cube, grid3{2, 0, 1}); }), "0 parts"));

@@ -7,16 +7,20 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/domain/interval.hpp>
 
-#include <cstddef>  // std::size_t
-#include <string>   // std::string
+#include <concepts>  // std::integral
+#include <cstddef>   // std::size_t
+#include <string>    // std::string
+#include <utility>   // std::cmp_less
 
 namespace tsubu::detail {
 
-/// @throws input_error if there is no such rank.
-inline void check_rank(const char* where, std::size_t rank, std::size_t ranks) {
-    if (rank >= ranks)
+/// The rank as it counts here, of any integer type: MPI has int. @throws input_error if there is no such rank.
+template <std::integral Rank>
+[[nodiscard]] std::size_t checked_rank(const char* where, Rank rank, std::size_t ranks) {
+    if (std::cmp_less(rank, 0) || std::cmp_greater_equal(rank, ranks))
         raise<input_error>(where, "rank " + std::to_string(rank) + " of " + std::to_string(ranks),
                            "ranks count from 0");
+    return static_cast<std::size_t>(rank);
 }
 
 /// @throws input_error if the cutoff is negative, infinite or NaN.

@@ -16,6 +16,7 @@
 #include <algorithm>  // std::max
 #include <array>      // std::array
 #include <cmath>      // std::abs, std::floor
+#include <concepts>   // std::integral
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::int64_t
 #include <limits>     // std::numeric_limits
@@ -82,13 +83,13 @@ template <class Real>
 /// @param reach     reach(mine, theirs) is how near along each axis [D], for two subdomains.
 /// @param is_round  the reach is the same length along all axes, which are at right angles: what is near along each of
 ///                  them may yet be too far across a corner.
-template <class Domain, class Decomposition, class Reach>
-[[nodiscard]] auto neighbors_within(const char* where, const Domain& cell, const Decomposition& parts, std::size_t rank,
+template <class Domain, class Decomposition, std::integral Rank, class Reach>
+[[nodiscard]] auto neighbors_within(const char* where, const Domain& cell, const Decomposition& parts, Rank which,
                                     Reach&& reach, bool is_round) {
     using Real = typename Domain::real_type;
     constexpr std::size_t D = Domain::dimension;
     constexpr std::size_t most_neighbors = std::size_t{1} << 26;  // 2 GB of them
-    check_rank(where, rank, parts.ranks());
+    const auto rank = checked_rank(where, which, parts.ranks());
     const auto mine = parts.subdomain(rank);
     std::vector<neighbor_rank<D>> found;
     std::array<std::vector<reaching_image<Real>>, D> images;
@@ -122,8 +123,8 @@ template <class Domain, class Decomposition, class Reach>
 }
 
 /// The same in a box with right angles.
-template <class Decomposition, class Real>
-[[nodiscard]] auto neighbors_within(const char* where, const Decomposition& parts, std::size_t rank, Real cutoff) {
+template <class Decomposition, std::integral Rank, class Real>
+[[nodiscard]] auto neighbors_within(const char* where, const Decomposition& parts, Rank rank, Real cutoff) {
     check_cutoff(where, cutoff);
     vec<Decomposition::dimension, Real> reach{};
     reach.fill(cutoff);

@@ -49,8 +49,8 @@ inline constexpr bool rotates_with_images<Field> = Field::rotates_with_images;
 /// Bytes:        2 n numbers in a table.
 /// Choose it when body and load are the same in every sector: a rotor, a shear cell, a vertical drum. Do not when
 ///               gravity is across the axis, as in a horizontal drum: that differs from sector to sector. The arc
-///               tangent is that of the machine: its last bit, and so the owner of a point on a face, may differ on ranks
-///               of another kind.
+///               tangent is that of the machine: its last bit, and so the owner of a point on a face, may differ on
+///               ranks of another kind.
 ///
 /// Threads: any number of readers; nothing changes after construction.
 template <std::floating_point Scalar = double>

@@ -38,7 +38,13 @@ struct ledger {
         CHECK((seen).checked > 0);   \
     } while (false)
 
+#if defined(NDEBUG)
 constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 7, 8, 12, 16, 61, 64};
+constexpr std::size_t rank_step = 1;
+#else  // with sanitizers and without optimisation the same takes ten minutes
+constexpr std::size_t some_ranks[] = {1, 2, 7, 12};
+constexpr std::size_t rank_step = 9;
+#endif
 
 template <std::size_t D, class Scalar>
 domain<D, Scalar> box_of_size(double scale, unsigned periodic) {
@@ -122,7 +128,7 @@ TEMPLATE_TEST_CASE("decompositions keep all laws at every scale", "[domain][conf
 }
 
 TEST_CASE("every number of ranks from 1 to 64 shares the space", "[domain][conformance][I6][I7][F3]") {
-    for (std::size_t ranks = 1; ranks <= 64; ++ranks)
+    for (std::size_t ranks = 1; ranks <= 64; ranks += rank_step)
         for (const double scale : {1e-300, 1e-7, 1.0, 1e9, 1e300})
             for_both(box_of_size<2, double>(scale, 1), ranks, [&](const auto& parts) {
                 ledger seen;

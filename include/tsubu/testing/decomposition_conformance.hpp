@@ -166,8 +166,8 @@ private:
         const bool inside = parts_.whole().contains(x);
         const auto owner = parts_.owner(x);
         const auto found = [&] {
-            return shown_point(x) + (inside ? ", inside" : ", outside") + ": " + shown(owners) +
-                   " ranks own it, " + shown(extended) + " by owns_extended; owner says rank " + shown(owner);
+            return shown_point(x) + (inside ? ", inside" : ", outside") + ": " + shown(owners) + " ranks own it, " +
+                   shown(extended) + " by owns_extended; owner says rank " + shown(owner);
         };
         expect(owners == (inside ? 1U : 0U), law::owned, found);
         expect(extended == 1, law::extended, found);
@@ -177,21 +177,30 @@ private:
     /// All points that were asked one by one, at once: the answers of the ranks from `first` to before `end`, and of
     /// owner, must be the same.
     void examine_batch(std::size_t first, std::size_t end) {
-        std::array<std::vector<scalar>, D> column;
-        typename points<D, const scalar>::columns columns{};
-        for (std::size_t k = 0; k < D; ++k) {
-            for (const auto& x : asked_) column[k].push_back(x[k]);
-            columns[k] = column[k];
-        }
-        for (const points<D, const scalar>& many :
-             {points<D, const scalar>(columns), points<D, const scalar>(asked_)}) {
+        in_both_storages(asked_, [&](const points<D, const scalar>& many) {
             for (auto rank = first; rank < end; ++rank) examine_batch(subdomains_[rank], many);
+        });
+        std::vector<position> finite;  // of others owner is not asked
+        for (const auto& x : asked_)
+            if (is_finite_point(x)) finite.push_back(x);
+        in_both_storages(finite, [&](const points<D, const scalar>& many) {
             std::vector<rank_t> owners(many.size());
             parts_.owner(many, owners);
             for (std::size_t i = 0; i < many.size(); ++i)
-                expect(!is_finite_point(asked_[i]) || owners[i] == parts_.owner(asked_[i]), law::batch,
-                       [&] { return shown_point(asked_[i]); });
+                expect(owners[i] == parts_.owner(finite[i]), law::batch, [&] { return shown_point(finite[i]); });
+        });
+    }
+    /// body(points), as columns and as an array of vectors.
+    template <class Body>
+    static void in_both_storages(const std::vector<position>& some, Body&& body) {
+        std::array<std::vector<scalar>, D> column;
+        typename points<D, const scalar>::columns columns{};
+        for (std::size_t k = 0; k < D; ++k) {
+            for (const auto& x : some) column[k].push_back(x[k]);
+            columns[k] = column[k];
         }
+        body(points<D, const scalar>(columns));
+        body(points<D, const scalar>(some));
     }
     template <class Part>
     void examine_batch(const Part& mine, const points<D, const scalar>& many) {

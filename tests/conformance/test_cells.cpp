@@ -57,7 +57,12 @@ void check_all_laws(const Box& where) {
                     static_cast<Scalar>(random.unit() * random.unit()) * where.cell().along(k).length();
         sample.push_back(at);
     }
-    for (const std::size_t ranks : {1U, 2U, 3U, 6U, 12U}) {
+#if defined(NDEBUG)
+    constexpr std::size_t some_ranks[] = {1, 2, 3, 6, 12};
+#else  // with sanitizers and without optimisation the same takes minutes
+    constexpr std::size_t some_ranks[] = {1, 3};
+#endif
+    for (const std::size_t ranks : some_ranks) {
         check(cell_decomposition(where, brick_decomposition<D, Scalar>(where.cell(), ranks)));
         check(cell_decomposition(where, bisection_decomposition<D, Scalar>(where.cell(), ranks, sample)));
     }

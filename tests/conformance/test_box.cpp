@@ -4,13 +4,13 @@
 #include <tsubu/testing/box_conformance.hpp>
 
 #include "support/catch.hpp"
+#include "support/verdict.hpp"
 
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/triclinic_box.hpp>
 #include <tsubu/domain/wedge.hpp>
 
 #include <cmath>
-#include <set>
 #include <string>
 
 namespace {
@@ -21,21 +21,9 @@ using tsubu::triclinic_box;
 using tsubu::vec;
 using tsubu::wedge;
 
-struct box_verdict {
-    void operator()(bool kept, std::string_view law) {
-        ++checked;
-        if (kept) return;
-        if (broken.empty()) first = law;
-        broken.insert(std::string(law.substr(0, law.find(':'))));
-    }
-    std::size_t checked = 0;
-    std::set<std::string> broken;
-    std::string first;
-};
-
 template <class Box>
 void check_laws(const Box& where) {
-    box_verdict seen;
+    verdict seen;
     tsubu::testing::check_box(where, 5, 200, seen);
     INFO(seen.first);
     CHECK(seen.broken.empty());
@@ -125,7 +113,7 @@ TEMPLATE_TEST_CASE("boxes keep their laws", "[domain][conformance][F4]", double,
 TEMPLATE_TEST_CASE("a broken box is caught by the number of its law", "[domain][conformance]", tolerant, wraps_once,
                    rounds_all, counts_down, nearest_fraction, half_goes_up) {
     static_assert(tsubu::box<TestType>);
-    box_verdict seen;
+    verdict seen;
     tsubu::testing::check_box(TestType{}, 1, 300, seen);
     INFO("breaks " << TestType::breaks << ", first caught: " << seen.first);
     CHECK(seen.broken.count(TestType::breaks) == 1);

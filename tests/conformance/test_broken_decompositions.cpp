@@ -6,8 +6,8 @@
 #include <tsubu/testing/decomposition_conformance.hpp>
 
 #include "support/catch.hpp"
+#include "support/verdict.hpp"
 
-#include <set>
 #include <string>
 #include <type_traits>
 
@@ -15,25 +15,12 @@ namespace {
 
 using namespace tsubu::testing;
 
-/// The laws that were broken, by what stands before the colon; and the first text.
-struct decomposition_verdict {
-    void operator()(bool kept, std::string_view law) {
-        ++checked;
-        if (kept) return;
-        if (broken.empty()) first = law;
-        broken.insert(std::string(law.substr(0, law.find(':'))));
-    }
-    std::size_t checked = 0;
-    std::set<std::string> broken;
-    std::string first;
-};
-
 }  // namespace
 
 TEMPLATE_LIST_TEST_CASE("a broken decomposition is caught by the number of its law", "[domain][conformance]",
                         broken::decomposition_twins) {
     static_assert(tsubu::decomposition<TestType>);
-    decomposition_verdict seen;
+    verdict seen;
     check_decomposition(TestType{}, 1, 300, seen);
     INFO("breaks " << TestType::breaks << ", first caught: " << seen.first);
     CHECK(seen.broken.count(TestType::breaks) == 1);
@@ -45,7 +32,7 @@ TEMPLATE_LIST_TEST_CASE("a broken decomposition is caught by the number of its l
 }
 
 TEST_CASE("a sound decomposition is not blamed", "[domain][conformance]") {
-    decomposition_verdict seen;
+    verdict seen;
     check_decomposition(broken::sound_bricks{}, 1, 1000, seen);
     INFO(seen.first);
     CHECK(seen.broken.empty());
@@ -53,7 +40,7 @@ TEST_CASE("a sound decomposition is not blamed", "[domain][conformance]") {
 }
 
 TEST_CASE("the text of a broken law names the point, its owners and the seed", "[domain][conformance]") {
-    decomposition_verdict seen;
+    verdict seen;
     check_decomposition(broken::gap_of_one_place{}, 77, 10, seen);
     INFO(seen.first);
     CHECK(seen.first.rfind("law 1: ", 0) == 0);

@@ -4,6 +4,7 @@
 #include <tsubu/domain/cell_decomposition.hpp>
 
 #include "support/catch.hpp"
+#include "support/verdict.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/domain/bisection_decomposition.hpp>
@@ -27,21 +28,12 @@ using tsubu::triclinic_box;
 using tsubu::vec;
 using tsubu::wedge;
 
-struct ledger {
-    void operator()(bool kept, std::string_view law) {
-        ++checked;
-        if (!kept && first.empty()) first = law;
-    }
-    std::size_t checked = 0;
-    std::string first;
-};
-
 template <class Box>
 void check_all_laws(const Box& where) {
     constexpr std::size_t D = Box::dimension;
     using Scalar = typename Box::scalar_type;
     const auto check = [](const auto& parts) {
-        ledger seen;
+        verdict seen;
         tsubu::testing::check_decomposition(parts, parts.ranks(), 60, seen);
         INFO(seen.first);
         CAPTURE(parts.ranks());

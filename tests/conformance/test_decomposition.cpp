@@ -4,6 +4,7 @@
 #include <tsubu/testing/decomposition_conformance.hpp>
 
 #include "support/catch.hpp"
+#include "support/verdict.hpp"
 
 #include <tsubu/domain/bisection_decomposition.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
@@ -22,15 +23,6 @@ using tsubu::domain;
 using tsubu::lattice;
 using tsubu::vec;
 
-/// Counts, and keeps the text of the first law that was broken.
-struct ledger {
-    void operator()(bool kept, std::string_view law) {
-        ++checked;
-        if (!kept && first.empty()) first = law;
-    }
-    std::size_t checked = 0;
-    std::string first;
-};
 #define CHECK_KEPT(seen)             \
     do {                             \
         INFO((seen).first);          \
@@ -89,7 +81,7 @@ void check_all_laws() {
         for (const unsigned periodic : {0U, 1U, 7U}) {
             if (tsubu::is_lattice<Scalar> && periodic != 7) continue;
             for_both(box_of_size<D, Scalar>(1, periodic), ranks, [&](const auto& parts) {
-                ledger seen;
+                verdict seen;
                 tsubu::testing::check_decomposition(parts, ranks, 100, seen);
                 CAPTURE(D, ranks, periodic);
                 CHECK_KEPT(seen);
@@ -103,7 +95,7 @@ void check_scales() {
         if (sizeof(Scalar) == 4 && !tsubu::is_lattice<Scalar> && (scale < 1e-30 || scale > 1e30)) continue;
         for (const std::size_t ranks : {1U, 2U, 6U, 13U})
             for_both(box_of_size<D, Scalar>(scale, 5), ranks, [&](const auto& parts) {
-                ledger seen;
+                verdict seen;
                 tsubu::testing::check_decomposition(parts, ranks, 30, seen);
                 CAPTURE(D, ranks, scale);
                 CHECK_KEPT(seen);
@@ -131,7 +123,7 @@ TEST_CASE("every number of ranks from 1 to 64 shares the space", "[domain][confo
     for (std::size_t ranks = 1; ranks <= 64; ranks += rank_step)
         for (const double scale : {1e-300, 1e-7, 1.0, 1e9, 1e300})
             for_both(box_of_size<2, double>(scale, 1), ranks, [&](const auto& parts) {
-                ledger seen;
+                verdict seen;
                 tsubu::testing::check_partition(parts, ranks, 30, seen);
                 CAPTURE(ranks, scale);
                 CHECK_KEPT(seen);
@@ -145,7 +137,7 @@ TEST_CASE("given cuts, very uneven, keep all laws", "[domain][conformance][F3]")
     const brick_decomposition<2> bricks(
         box, std::array{cuts<double>(box.along(0), {1e-300, 0.5, std::nextafter(0.5, 1.0)}),
                         cuts<double>(box.along(1), {std::nextafter(y, 1.0), std::nextafter(box.along(1).hi(), 0.0)})});
-    ledger seen;
+    verdict seen;
     tsubu::testing::check_partition(bricks, 1, 1000, seen);
     CHECK_KEPT(seen);
 }

@@ -539,23 +539,5 @@ int run(const options& chosen) {
 }  // namespace bench
 
 int main(int argc, char** argv) {
-    std::vector<char*> arguments(argv, argv + argc);
-    for (const std::string_view word : arguments)
-        if (word == "--help") {
-            std::fputs(bench::usage, stdout);
-            return EXIT_SUCCESS;
-        }
-    bench::options chosen;
-    chosen.out = "bench_domain.json";
-    if (!bench::parse(arguments, chosen)) {
-        std::fputs(bench::usage, stderr);
-        return 2;
-    }
-    try {
-        bench::initialize_benchmark(arguments, chosen.how_much);
-        return bench::run(chosen);
-    } catch (const std::exception& failure) {
-        std::fprintf(stderr, "bench_domain: %s\n", failure.what());
-        return EXIT_FAILURE;
-    }
+    return bench::run_program(argc, argv, "bench_domain", bench::usage, false, bench::run);
 }

@@ -338,23 +338,5 @@ int run(const options& chosen) {
 }  // namespace bench
 
 int main(int argc, char** argv) {
-    std::vector<char*> arguments(argv, argv + argc);
-    for (const std::string_view word : arguments)
-        if (word == "--help") {
-            std::fputs(bench::usage, stdout);
-            return EXIT_SUCCESS;
-        }
-    bench::options chosen;
-    chosen.out = "bench_id_map.json";
-    if (!bench::parse(arguments, chosen, true)) {
-        std::fputs(bench::usage, stderr);
-        return 2;
-    }
-    try {
-        bench::initialize_benchmark(arguments, chosen.how_much);
-        return bench::run(chosen);
-    } catch (const std::exception& failure) {
-        std::fprintf(stderr, "bench_id_map: %s\n", failure.what());
-        return EXIT_FAILURE;
-    }
+    return bench::run_program(argc, argv, "bench_id_map", bench::usage, true, bench::run);
 }

@@ -6,6 +6,9 @@
 #include <benchmark/benchmark.h>
 
 #include <cstddef>      // std::size_t
+#include <cstdio>       // std::fprintf, std::fputs
+#include <cstdlib>      // EXIT_FAILURE, EXIT_SUCCESS
+#include <exception>    // std::exception
 #include <string>       // std::string
 #include <string_view>  // std::string_view
 #include <vector>       // std::vector
@@ -60,6 +63,31 @@ inline void initialize_benchmark(const std::vector<char*>& user, extent how_much
     for (auto& word : words) pointers.push_back(word.data());
     int count = static_cast<int>(pointers.size());
     benchmark::Initialize(&count, pointers.data());
+}
+
+/// What main does: help, options, run(options), and what went wrong. @return the exit code.
+/// @param takes_ids  whether the program has a use for --ids
+template <class Run>
+int run_program(int argc, char** argv, const std::string& name, const char* usage, bool takes_ids, Run&& run) {
+    std::vector<char*> arguments(argv, argv + argc);
+    for (const std::string_view word : arguments)
+        if (word == "--help") {
+            std::fputs(usage, stdout);
+            return EXIT_SUCCESS;
+        }
+    options chosen;
+    chosen.out = name + ".json";
+    if (!parse(arguments, chosen, takes_ids)) {
+        std::fputs(usage, stderr);
+        return 2;
+    }
+    try {
+        initialize_benchmark(arguments, chosen.how_much);
+        return run(chosen);
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), failure.what());
+        return EXIT_FAILURE;
+    }
 }
 
 }  // namespace bench

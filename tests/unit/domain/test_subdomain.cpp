@@ -2,6 +2,7 @@
 #include <tsubu/domain/subdomain.hpp>
 
 #include "support/catch.hpp"
+#include "support/instruction_sets.hpp"
 #include "unit/thrown.hpp"
 
 #include <tsubu/core/instruction_set.hpp>
@@ -27,18 +28,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 tsubu::subdomain<3> unit_cube() { return brick_decomposition<3>({{0, 0, 0}, {1, 1, 1}}, 1).subdomain(0); }
-
-struct each_instruction_set {
-    ~each_instruction_set() { tsubu::use_instruction_set(tsubu::supported_instruction_set()); }
-    template <class Body>
-    void run(Body&& body) const {
-        for (const auto set :
-             {tsubu::instruction_set::portable, tsubu::instruction_set::avx2, tsubu::instruction_set::avx512}) {
-            tsubu::use_instruction_set(set);
-            body();
-        }
-    }
-};
 
 template <std::size_t D, class Scalar>
 domain<D, Scalar> some_box() {

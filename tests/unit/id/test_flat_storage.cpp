@@ -6,6 +6,7 @@
 #include <tsubu/testing/throwing_allocator.hpp>
 
 #include "support/catch.hpp"
+#include "support/instruction_sets.hpp"
 #include "unit/thrown.hpp"
 
 #include <algorithm>
@@ -113,18 +114,6 @@ struct backwards {
                 part(k);
             else
                 std::thread([&] { part(k); }).join();
-        }
-    }
-};
-
-struct each_instruction_set {
-    ~each_instruction_set() { tsubu::use_instruction_set(tsubu::supported_instruction_set()); }
-    template <class Body>
-    void run(Body&& body) const {
-        for (const auto set :
-             {tsubu::instruction_set::portable, tsubu::instruction_set::avx2, tsubu::instruction_set::avx512}) {
-            tsubu::use_instruction_set(set);
-            body();
         }
     }
 };

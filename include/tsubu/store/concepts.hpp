@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// particle_layout: how the fields of particles lie in memory; and the table of the models.
+///
+/// | layout            | memory                         | choose it when                                            |
+/// |-------------------|--------------------------------|-----------------------------------------------------------|
+/// | soa (default)     | one array per field            | loops use few fields, in order                            |
+/// | aos               | one record per particle        | loops use most fields of particles in random order        |
+/// | aosoa<N>          | N of each field, block by block | both: vectors of one field, all fields of a block nearby  |
+#pragma once
+
+#include <tsubu/store/field.hpp>
+
+#include <concepts>  // std::same_as
+#include <cstddef>   // std::size_t
+
+namespace tsubu {
+
+/// The memory of a layout for fixed types: Layout::memory<Values...>.
+///  1. at<K>(i) is where value K of row i lies, for i < capacity(); distinct for distinct K and i;
+///  2. place<K>() finds the same: place<K>().at(i);
+///  3. a copy of row i is a copy of each of its values, and nothing else;
+///  4. bytes_of(n) is what n rows take, and at most the sum of their sizes, 1 % and a block more.
+template <class Layout>
+concept particle_layout = requires(typename Layout::template memory<int, double>& rows,
+                                   const typename Layout::template memory<int, double>& read, std::size_t n) {
+    { rows.template at<1>(n) } noexcept -> std::same_as<double&>;
+    { read.template at<1>(n) } noexcept -> std::same_as<const double&>;
+    { rows.template place<0>().at(n) } noexcept -> std::same_as<int&>;
+    { read.template place<0>().at(n) } noexcept -> std::same_as<const int&>;
+    { read.capacity() } noexcept -> std::same_as<std::size_t>;
+    { read.memory_bytes() } noexcept -> std::same_as<std::size_t>;
+    rows.reallocate(n, n);             // a new capacity, and how many rows to keep; strong guarantee
+    rows.copy_row(n, n);               // from, to
+    rows.swap_rows(n, n);
+    rows.gather(&n, n);                // row i becomes row order[i], for i < n
+};
+
+}  // namespace tsubu

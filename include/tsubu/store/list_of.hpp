@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// list_of: as many values as each particle has: bonds, contacts and what they remember.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/expects.hpp>
+#include <tsubu/store/column.hpp>
+
+#include <algorithm>    // std::copy_n, std::max
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::uint32_t, std::uint64_t
+#include <limits>       // std::numeric_limits
+#include <span>         // std::span
+#include <string>       // std::to_string
+#include <type_traits>  // std::is_trivially_copyable_v
+
+namespace tsubu {
+
+// All lists of one field lie in one pool, each in a stretch with some room; a particle holds where:
+//
+//     particle   begin size room        pool
+//        0         0    2    2          | a b | c . . . | d e f . | (free) ...
+//        1         2    1    4            0     2         6
+//        2         6    3    4
+//
+// A list that is full moves to the end of what is used, into twice the room. The stretch that it leaves is garbage, which
+// compaction drops: when more than half of what is used is garbage, at the next operation of the store that touches rows.
+// Since room doubles, garbage is less than the room of the lists that left it.
+
+/// The type of a field with as many values as each particle has.
+///
+///     inline constexpr tsubu::field<"contacts", tsubu::list_of<contact>> contacts{};
+///
+/// @tparam Element  trivially copyable.
+template <class Element>
+struct list_of {
+    static_assert(std::is_trivially_copyable_v<Element>, "list_of holds a trivially copyable type");
+    using element_type = Element;
+};
+
+namespace detail {
+
+/// Where the list of a particle lies.
+struct list_extent {
+    std::uint64_t begin = 0;
+    std::uint32_t size = 0;
+    std::uint32_t room = 0;
+};
+
+template <class Element>
+class list_pool {
+public:
+    [[nodiscard]] Element* at(const list_extent& list) noexcept { return elements_.data() + list.begin; }
+    [[nodiscard]] const Element* at(const list_extent& list) const noexcept { return elements_.data() + list.begin; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return elements_.memory_bytes(); }
+
+    /// Makes room for `wanted` elements; those that are there stay. Strong guarantee.
+    void reserve(list_extent& list, std::size_t wanted) {
+        if (wanted <= list.room) return;
+        if (wanted > (std::numeric_limits<std::uint32_t>::max)() / 2)
+            raise<limit_error>("list_of", std::to_string(wanted) + " values of one particle",
+                               "a particle holds fewer than 2^31");
+        constexpr std::size_t least = 2;  // most lists stay short
+        const auto room = (std::max)({wanted, std::size_t{2} * list.room, least});
+        if (used_ + room > elements_.size()) grow(used_ + room);
+        std::copy_n(at(list), list.size, elements_.data() + used_);
+        garbage_ += list.room;
+        list.begin = used_;
+        list.room = static_cast<std::uint32_t>(room);
+        used_ += room;
+    }
+    void release(list_extent& list) noexcept {
+        garbage_ += list.room;
+        list = {};
+    }
+    [[nodiscard]] bool wants_compaction() const noexcept { return garbage_ > used_ / 2 && used_ > 1024; }
+    /// each(visit) calls visit(extent) for every list there is, in the order that is wanted.
+    template <class Each>
+    void compact(Each&& each) {
+        std::size_t needed = 0;
+        each([&](list_extent& list) { needed += list.size; });
+        buffer<Element> fresh(needed + needed / 4, {});
+        std::size_t at = 0;
+        each([&](list_extent& list) {
+            std::copy_n(elements_.data() + list.begin, list.size, fresh.data() + at);
+            list.begin = at;
+            list.room = list.size;
+            at += list.size;
+        });
+        elements_ = std::move(fresh);
+        used_ = at;
+        garbage_ = 0;
+    }
+    void clear() noexcept { used_ = garbage_ = 0; }
+
+private:
+    void grow(std::size_t needed) {
+        buffer<Element> fresh((std::max)(needed, elements_.size() + elements_.size() / 2), {});
+        std::copy_n(elements_.data(), used_, fresh.data());
+        elements_ = std::move(fresh);
+    }
+
+    buffer<Element> elements_;
+    std::size_t used_ = 0;
+    std::size_t garbage_ = 0;
+};
+
+}  // namespace detail
+
+/// The list of one particle: a reference, which other lists of the field may end when they grow (its elements move; the
+/// list itself can be asked again).
+template <class Element, bool IsConst = false>
+class list_reference {
+    using pool = std::conditional_t<IsConst, const detail::list_pool<Element>, detail::list_pool<Element>>;
+    using extent = std::conditional_t<IsConst, const detail::list_extent, detail::list_extent>;
+    using value = std::conditional_t<IsConst, const Element, Element>;
+
+public:
+    list_reference(pool& of, extent& list) noexcept : pool_(&of), list_(&list) {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return list_->size; }
+    [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+    [[nodiscard]] value* begin() const noexcept { return pool_->at(*list_); }
+    [[nodiscard]] value* end() const noexcept { return begin() + size(); }
+    [[nodiscard]] value& operator[](std::size_t k) const noexcept {
+        TSUBU_EXPECTS(k < size(), "no element with this number in the list; ask size()");
+        return begin()[k];
+    }
+    [[nodiscard]] std::span<value> span() const noexcept { return {begin(), size()}; }
+    /// Complexity: amortised O(1). Strong guarantee.
+    void push_back(const Element& element) const
+        requires(!IsConst)
+    {
+        const auto kept = element;  // it may lie in this pool
+        pool_->reserve(*list_, size() + 1);
+        begin()[list_->size++] = kept;
+    }
+    /// The last one moves into its place.
+    void swap_remove(std::size_t k) const noexcept
+        requires(!IsConst)
+    {
+        (*this)[k] = (*this)[size() - 1];
+        --list_->size;
+    }
+    void clear() const noexcept
+        requires(!IsConst)
+    {
+        list_->size = 0;
+    }
+    /// New elements are not initialised. Strong guarantee.
+    void resize(std::size_t count) const
+        requires(!IsConst)
+    {
+        pool_->reserve(*list_, count);
+        list_->size = static_cast<std::uint32_t>(count);
+    }
+    /// Strong guarantee. Precondition: the elements do not lie in this store.
+    void assign(std::span<const Element> elements) const
+        requires(!IsConst)
+    {
+        resize(elements.size());
+        std::copy_n(elements.data(), elements.size(), begin());
+    }
+
+private:
+    pool* pool_;
+    extent* list_;
+};
+
+/// The lists of some particles, which can be indexed and walked by number.
+template <class Element, class Place, bool IsConst = false>
+class list_column {
+    using pool = std::conditional_t<IsConst, const detail::list_pool<Element>, detail::list_pool<Element>>;
+
+public:
+    list_column(Place place, std::size_t count, pool& of, lease until) noexcept
+        : place_(place), count_(count), pool_(&of), until_(until) {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    [[nodiscard]] list_reference<Element, IsConst> operator[](std::size_t i) const noexcept {
+        until_.check();
+        TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
+        return {*pool_, place_.at(i)};
+    }
+    [[nodiscard]] list_column part(std::size_t first, std::size_t count) const noexcept {
+        TSUBU_EXPECTS(first + count <= count_, "a part that reaches beyond the column; ask size()");
+        return {place_.from(first), count, *pool_, until_};
+    }
+
+private:
+    Place place_;
+    std::size_t count_;
+    pool* pool_;
+    [[no_unique_address]] lease until_;
+};
+
+}  // namespace tsubu

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// particle_store: what the particles of a rank carry.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/expects.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/store/column.hpp>
+#include <tsubu/store/concepts.hpp>
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/growth.hpp>
+#include <tsubu/store/list_of.hpp>
+#include <tsubu/store/particle_range.hpp>
+#include <tsubu/store/soa.hpp>
+
+#include <concepts>     // std::integral
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::uint64_t
+#include <memory>       // std::unique_ptr
+#include <span>         // std::span
+#include <string>       // std::to_string
+#include <tuple>        // std::tuple
+#include <type_traits>  // std::conditional_t
+#include <utility>      // std::exchange, std::index_sequence, std::swap
+#include <vector>       // std::vector
+
+namespace tsubu {
+namespace detail {
+
+/// What lies in memory for a field, and the pool that its lists lie in.
+template <class Value>
+struct stored {
+    using type = Value;
+    using pool = std::tuple<>;
+    static constexpr bool is_list = false;
+};
+template <class Element>
+struct stored<list_of<Element>> {
+    using type = list_extent;
+    using pool = list_pool<Element>;
+    static constexpr bool is_list = true;
+};
+
+}  // namespace detail
+
+template <class Fields, class Layout = soa, class Growth = geometric_growth>
+class particle_store;
+
+/// What do the particles of this rank carry? Owned ones first, 0 .. owned_count() - 1, then ghosts.
+///
+///     tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::radius>> g;
+///     g.push_back(tsubu::id = 7, tsubu::radius = 0.5);
+///     for (auto& r : g[tsubu::radius]) r *= 2;
+///     for (auto grain : g.owned()) grain[tsubu::position<3>][2] += 1;
+///
+/// Columns, ranges and references are views: adding particles may end them, which debug builds tell where they are used.
+///
+/// @tparam Fields  fields<...>
+/// @tparam Layout  a particle_layout: soa, aos or aosoa<N>; a program is the same for all.
+/// @tparam Growth  a growth_policy.
+///
+/// Invariant:   owned_count() <= size() <= capacity(), and size() < 2^31.
+/// Invalidates: adding particles, reserve and permute end all views; removing ends those of removed particles.
+/// Threads:     many readers, or one writer; different particles may be written by different threads.
+template <auto... F, class Layout, class Growth>
+class particle_store<fields<F...>, Layout, Growth> {
+    using memory = typename Layout::template memory<
+        typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
+    using pools = std::tuple<typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::pool...>;
+    static_assert(particle_layout<Layout> && growth_policy<Growth>);
+
+public:
+    using fields_type = fields<F...>;
+    using layout_type = Layout;
+    using growth_type = Growth;
+    using reference = particle_reference<particle_store>;
+    using const_reference = particle_reference<const particle_store>;
+    using range = particle_range<particle_store>;
+    using const_range = particle_range<const particle_store>;
+    /// All that lies in memory for one particle; lists lie in their pool. A value for std::sort and its like.
+    using record = particle_record<
+        fields_type, typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
+    /// The sum of the sizes of the fields [bytes]; of a list what says where it lies.
+    static constexpr std::size_t bytes_per_particle =
+        (std::size_t{0} + ... + sizeof(typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type));
+    template <class Field>
+    static constexpr bool has = fields_type::template has<Field>;
+
+    particle_store() = default;
+    explicit particle_store(Growth growth) : growth_(growth) {}
+    particle_store(const particle_store& other)
+        : pools_(other.pools_), growth_(other.growth_), memory_(other.memory_), size_(other.size_), owned_(other.owned_) {}
+    particle_store(particle_store&& other) noexcept
+        : pools_(std::move(other.pools_)),
+          growth_(other.growth_),
+          memory_(std::exchange(other.memory_, memory())),
+          size_(std::exchange(other.size_, 0)),
+          owned_(std::exchange(other.owned_, 0)) {
+        std::swap(allocation_, other.allocation_);
+    }
+    particle_store& operator=(particle_store other) noexcept {
+        std::swap(pools_, other.pools_);
+        std::swap(growth_, other.growth_);
+        std::swap(memory_, other.memory_);
+        std::swap(size_, other.size_);
+        std::swap(owned_, other.owned_);
+        std::swap(allocation_, other.allocation_);
+        return *this;
+    }
+    ~particle_store() = default;
+
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] std::size_t owned_count() const noexcept { return owned_; }
+    [[nodiscard]] std::size_t ghost_count() const noexcept { return size_ - owned_; }
+    [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+    [[nodiscard]] std::size_t capacity() const noexcept { return memory_.capacity(); }
+    /// What is held, lists and free room included.
+    [[nodiscard]] std::size_t memory_bytes() const noexcept {
+        auto bytes = memory_.memory_bytes();
+        each_pool([&](const auto& pool) { bytes += pool.memory_bytes(); });
+        return bytes;
+    }
+
+    /// The values of one field, of all particles.
+    template <particle_field Field>
+        requires(fields_type::template has<Field>)
+    [[nodiscard]] auto operator[](Field) noexcept {
+        return column_of<Field>(*this);
+    }
+    template <particle_field Field>
+        requires(fields_type::template has<Field>)
+    [[nodiscard]] auto operator[](Field) const noexcept {
+        return column_of<Field>(*this);
+    }
+    /// All of one particle.
+    template <std::integral Index>
+    [[nodiscard]] reference operator[](Index i) noexcept {
+        return {*this, static_cast<std::size_t>(i)};
+    }
+    template <std::integral Index>
+    [[nodiscard]] const_reference operator[](Index i) const noexcept {
+        return {*this, static_cast<std::size_t>(i)};
+    }
+    [[nodiscard]] range owned() noexcept { return {*this, 0, owned_}; }
+    [[nodiscard]] const_range owned() const noexcept { return {*this, 0, owned_}; }
+    [[nodiscard]] range ghosts() noexcept { return {*this, owned_, ghost_count()}; }
+    [[nodiscard]] const_range ghosts() const noexcept { return {*this, owned_, ghost_count()}; }
+    [[nodiscard]] range all() noexcept { return {*this, 0, size_}; }
+    [[nodiscard]] const_range all() const noexcept { return {*this, 0, size_}; }
+
+    /// Room for n particles, owned and ghost, in whole blocks. Strong guarantee. @throws limit_error from 2^31 on.
+    void reserve(std::size_t n) {
+        if (n > capacity()) reallocate(round_up(n));
+    }
+    /// A new owned particle, with the values given and zeros for the others; its index.
+    /// Complexity: amortised O(1). Strong guarantee.
+    /// @throws input_error if there are ghosts: they come after the owned ones; limit_error at 2^31 particles.
+    template <class... Given>
+    index_t push_back(const field_value<Given>&... given) {
+        const auto i = add_owned(1);
+        set(i, given...);
+        return static_cast<index_t>(i);
+    }
+    template <class... Given>
+    index_t push_back_ghost(const field_value<Given>&... given) {
+        const auto i = add_ghosts(1);
+        set(i, given...);
+        return static_cast<index_t>(i);
+    }
+    /// `count` owned particles more, all zeros; the index of the first. As push_back.
+    std::size_t add_owned(std::size_t count) {
+        refuse_ghosts("particle_store::add_owned");
+        const auto first = add(count);
+        owned_ = size_;
+        return first;
+    }
+    std::size_t add_ghosts(std::size_t count) { return add(count); }
+    void clear_ghosts() noexcept { shrink(owned_); }
+    void clear() noexcept {
+        shrink(0);
+        owned_ = 0;
+    }
+    /// Removes an owned particle; the last one moves into its place.
+    /// @throws input_error if there are ghosts, or no such particle.
+    void swap_remove(std::size_t i) {
+        refuse_ghosts("particle_store::swap_remove");
+        if (i >= owned_)
+            detail::raise<input_error>("particle_store::swap_remove",
+                                       "index " + std::to_string(i) + " of " + std::to_string(owned_) + " owned particles",
+                                       "indices go from 0 to owned_count() - 1");
+        release_lists(i);
+        const auto last = owned_ - 1;
+        if (i != last) memory_.copy_row(last, i);  // lists go along: where they lie is in the row
+        clear_lists(last);
+        --owned_;
+        --size_;
+        compact_if_due();
+    }
+    /// Particle i becomes particle order[i] of before, for all owned ones; one pass over each field.
+    /// @throws input_error if there are ghosts, or the lengths differ. Precondition: order is a permutation.
+    void permute(std::span<const index_t> order) {
+        refuse_ghosts("particle_store::permute");
+        if (order.size() != owned_)
+            detail::raise<input_error>("particle_store::permute",
+                                       "an order of " + std::to_string(order.size()) + " for " + std::to_string(owned_) +
+                                           " owned particles",
+                                       "give each index once");
+        TSUBU_EXPECTS(is_permutation(order), "this is not a permutation; give each index once");
+        memory_.gather(order.data(), owned_);
+        ++*allocation_;
+        compact_if_due();
+    }
+    /// Drops what lists have left behind, and lays them in the order of the particles.
+    void compact() {
+        std::size_t place = 0;
+        each_list([&]<std::size_t K>(auto& pool) {
+            pool.compact([&](auto&& visit) {
+                for (std::size_t i = 0; i < size_; ++i) visit(memory_.template at<K>(i));
+            });
+            ++place;
+        });
+    }
+
+private:
+    template <class Store>
+    friend class particle_reference;
+    template <class Store>
+    friend class particle_range;
+
+    template <class Field, class Self>
+    [[nodiscard]] static auto column_of(Self& self) noexcept {
+        constexpr auto k = fields_type::template place<Field>();
+        using value_type = typename Field::value_type;
+        auto place = self.memory_.template place<k>();
+        const lease until(self.allocation_.get());
+        constexpr bool is_const = std::is_const_v<Self>;
+        if constexpr (detail::stored<value_type>::is_list)
+            return list_column<typename value_type::element_type, decltype(place), is_const>(
+                place, self.size_, std::get<k>(self.pools_), until);
+        else
+            return column<std::conditional_t<is_const, const value_type, value_type>, decltype(place)>(place, self.size_,
+                                                                                                      until);
+    }
+    void refuse_ghosts(const char* where) const {
+        if (ghost_count() != 0)
+            detail::raise<input_error>(where, std::to_string(ghost_count()) + " ghosts stand after the owned particles",
+                                       "call clear_ghosts() before owned particles come, go or change places");
+    }
+    std::size_t add(std::size_t count) {
+        const auto needed = size_ + count;
+        if (needed > max_index_count)
+            detail::raise<limit_error>("particle_store", std::to_string(needed) + " particles on one rank",
+                                       "spread them over more ranks: an index has 32 bits");
+        if (needed > capacity()) reallocate(growth_.next(capacity(), needed));
+        const auto first = size_;
+        size_ = needed;
+        for (auto i = first; i < needed; ++i) zero_row(i);
+        return first;
+    }
+    void reallocate(std::uint64_t wanted) {
+        memory_.reallocate(static_cast<std::size_t>(wanted), size_);
+        ++*allocation_;
+    }
+    void shrink(std::size_t count) noexcept {
+        for (auto i = count; i < size_; ++i) release_lists(i);
+        size_ = count;
+    }
+    void zero_row(std::size_t i) noexcept {
+        each_value([&]<std::size_t K>() { memory_.template at<K>(i) = {}; });
+    }
+    template <class... Given>
+    void set(std::size_t i, const field_value<Given>&... given) {
+        static_assert((has<Given> && ...), "this store has no such field; name it in fields<...>");
+        (static_cast<void>(memory_.template at<fields_type::template place<Given>()>(i) = given.value), ...);
+    }
+    void release_lists(std::size_t i) noexcept {
+        each_list([&]<std::size_t K>(auto& pool) { pool.release(memory_.template at<K>(i)); });
+    }
+    void clear_lists(std::size_t i) noexcept {
+        each_list([&]<std::size_t K>(auto&) { memory_.template at<K>(i) = {}; });
+    }
+    void compact_if_due() {
+        bool due = false;
+        each_list([&]<std::size_t K>(auto& pool) { due = due || pool.wants_compaction(); });
+        if (due) compact();
+    }
+    [[nodiscard]] static bool is_permutation(std::span<const index_t> order) {
+        std::vector<bool> seen(order.size());
+        for (const auto i : order) {
+            if (i < 0 || static_cast<std::size_t>(i) >= order.size() || seen[static_cast<std::size_t>(i)]) return false;
+            seen[static_cast<std::size_t>(i)] = true;
+        }
+        return true;
+    }
+    template <class Body>
+    static void each_value(Body&& body) {
+        [&]<std::size_t... K>(std::index_sequence<K...>) {
+            (body.template operator()<K>(), ...);
+        }(std::make_index_sequence<sizeof...(F)>{});
+    }
+    template <class Body>
+    void each_list(Body&& body) {
+        each_value([&]<std::size_t K>() {
+            if constexpr (!std::is_same_v<std::tuple_element_t<K, pools>, std::tuple<>>)
+                body.template operator()<K>(std::get<K>(pools_));
+        });
+    }
+    template <class Body>
+    void each_pool(Body&& body) const {
+        each_value([&]<std::size_t K>() {
+            if constexpr (!std::is_same_v<std::tuple_element_t<K, pools>, std::tuple<>>) body(std::get<K>(pools_));
+        });
+    }
+
+    pools pools_;
+    [[no_unique_address]] Growth growth_{};
+    memory memory_;
+    std::size_t size_ = 0;
+    std::size_t owned_ = 0;
+    std::unique_ptr<std::uint64_t> allocation_ = std::make_unique<std::uint64_t>(0);  // which one: see lease
+};
+
+}  // namespace tsubu

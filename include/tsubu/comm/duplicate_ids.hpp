@@ -56,23 +56,23 @@ template <particle_id Id>
             raise<input_error>("duplicate_ids",
                                "the id at index " + std::to_string(i) + " is " + std::to_string(owned[i]),
                                "ids of particles are 0 or greater");
-    const auto home = [ranks = static_cast<std::uint64_t>(rank_count)](Id id) {
-        return static_cast<std::size_t>(splitmix64(static_cast<std::uint64_t>(id)) % ranks);
+    const auto home = [ranks = static_cast<std::uint64_t>(rank_count)](Id t) {
+        return static_cast<std::size_t>(splitmix64(static_cast<std::uint64_t>(t)) % ranks);
     };
     std::vector<Id> sorted(owned.begin(), owned.end());
     std::sort(sorted.begin(), sorted.end());
     std::size_t kept = 0;
-    for (const auto id : sorted)
-        if (kept < 2 || sorted[kept - 2] != id) sorted[kept++] = id;
+    for (const auto t : sorted)
+        if (kept < 2 || sorted[kept - 2] != t) sorted[kept++] = t;
     sorted.resize(kept);
 
     parcels<Id> outgoing;
     outgoing.counts.assign(static_cast<std::size_t>(rank_count), 0);
-    for (const auto id : sorted) ++outgoing.counts[home(id)];
+    for (const auto t : sorted) ++outgoing.counts[home(t)];
     std::vector<std::size_t> next(outgoing.counts.size(), 0);
     for (std::size_t r = 1; r < next.size(); ++r) next[r] = next[r - 1] + outgoing.counts[r - 1];
     outgoing.values.resize(kept);
-    for (const auto id : sorted) outgoing.values[next[home(id)]++] = id;
+    for (const auto t : sorted) outgoing.values[next[home(t)]++] = t;
     return outgoing;
 }
 

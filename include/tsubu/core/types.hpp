@@ -2,7 +2,7 @@
 /// @file
 /// The words every room uses: id, index, absent.
 ///
-/// id     global and stable name of a particle, given once for the whole simulation
+/// id     global and stable name of a particle, given once for the whole simulation; t as a parameter
 /// index  local and dense place of a particle on this rank: owned 0..n-1, then ghosts n..N-1
 /// rank   one process (or one participant of a transport)
 /// owned  the one copy of a particle that its rank integrates
@@ -45,9 +45,9 @@ template <particle_id Id>
 using unsigned_id = std::make_unsigned_t<Id>;
 
 template <particle_id Id>
-[[nodiscard]] constexpr bool is_negative(Id id) noexcept {
+[[nodiscard]] constexpr bool is_negative(Id t) noexcept {
     if constexpr (std::signed_integral<Id>)
-        return id < 0;
+        return t < 0;
     else
         return false;
 }

@@ -102,14 +102,14 @@ public:
     explicit adaptive_storage(memory_limit limit, const Allocator& allocator = {})
         : table_(std::in_place_type<flat>, limit, allocator), limit_(limit) {}
 
-    [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
-        return with_table([&](const auto& table) { return table.find(id); });
+    [[nodiscard, gnu::always_inline]] index_t find(Id t) const noexcept {
+        return with_table([&](const auto& table) { return table.find(t); });
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         with_table([&](const auto& table) { table.find(ids, indices); });
     }
-    void prefetch(Id id) const noexcept {
-        with_table([&](const auto& table) { table.prefetch(id); });
+    void prefetch(Id t) const noexcept {
+        with_table([&](const auto& table) { table.prefetch(t); });
     }
 
     /// @throws limit_error if not even flat lines keep within the memory limit. Strong guarantee, but for
@@ -142,22 +142,22 @@ public:
     }
 
     /// @throws limit_error as rebuild. Strong guarantee.
-    void assign(Id id, index_t index) {
-        const auto range = range_.with(id);
-        if (choice() == adaptive_choice::flat || range_.contains(id) || suits(range)) {
+    void assign(Id t, index_t index) {
+        const auto range = range_.with(t);
+        if (choice() == adaptive_choice::flat || range_.contains(t) || suits(range)) {
             try {
-                with_table([&](auto& table) { table.assign(id, index); });
+                with_table([&](auto& table) { table.assign(t, index); });
             } catch (const limit_error&) {
                 if (choice() == adaptive_choice::flat) throw;
-                assign_in_flat(id, index);
+                assign_in_flat(t, index);
             }
         } else {
-            assign_in_flat(id, index);
+            assign_in_flat(t, index);
         }
         range_ = range;
     }
-    bool erase(Id id) noexcept {
-        return with_table([&](auto& table) { return table.erase(id); });
+    bool erase(Id t) noexcept {
+        return with_table([&](auto& table) { return table.erase(t); });
     }
     /// Room in the present table; the next rebuild may pick another. @throws limit_error as that table.
     void reserve(std::size_t count) {
@@ -242,12 +242,12 @@ private:
         build(fresh);
         table_ = std::move(fresh);  // the former table gives its memory back
     }
-    void assign_in_flat(Id id, index_t index) {
+    void assign_in_flat(Id t, index_t index) {
         flat sparse(limit_, get_allocator());
         sparse.reserve(size() + 1);
         with_table(
             [&](const auto& table) { table.for_each([&](Id present, index_t at) { sparse.assign(present, at); }); });
-        sparse.assign(id, index);
+        sparse.assign(t, index);
         table_ = std::move(sparse);
     }
     // Not std::visit: find() of the tables, or the call that flat_storage makes, is inlined into the caller.

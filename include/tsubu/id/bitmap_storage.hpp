@@ -78,15 +78,15 @@ public:
     }
     ~bitmap_storage() = default;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
+    [[nodiscard]] index_t find(Id t) const noexcept {
         const auto map = window();
-        return map.word_of(id) < map.count ? pool_[map.template place_of<false>(id)] : absent;
+        return map.word_of(t) < map.count ? pool_[map.template place_of<false>(t)] : absent;
     }
     void find(std::span<const Id> ids, std::span<index_t> out) const noexcept {
         detail::bitmap_find(best_instruction_set(), window(), pool_.data(), ids.data(), out.data(), ids.size());
     }
-    void prefetch(Id id) const noexcept {
-        if (const auto w = window().word_of(id); w < words_.size()) {
+    void prefetch(Id t) const noexcept {
+        if (const auto w = window().word_of(t); w < words_.size()) {
             detail::prefetch(words_.data() + w);
             detail::prefetch(starts_.data() + w);
         }
@@ -99,7 +99,7 @@ public:
         if (ids.empty()) return;
         const auto map = window();
         std::uint64_t* const words = words_.data();
-        for (const auto id : ids) words[map.word_of(id)] |= std::uint64_t{1} << (static_cast<unsigned_type>(id) & 63U);
+        for (const auto t : ids) words[map.word_of(t)] |= std::uint64_t{1} << (static_cast<unsigned_type>(t) & 63U);
         const auto set = best_instruction_set();
         used_ = detail::bitmap_number(set, words_.data(), starts_.data(), words_.size());
         size_ = used_ - 1;
@@ -108,17 +108,17 @@ public:
     }
 
     /// @throws limit_error if the bitmap or the pool would pass the memory limit. Strong guarantee.
-    void assign(Id id, index_t index) {
-        if (window().word_of(id) >= words_.size()) widen(id);
-        auto place = window().template place_of<false>(id);
-        if (place == 0) place = insert_place(id);
+    void assign(Id t, index_t index) {
+        if (window().word_of(t) >= words_.size()) widen(t);
+        auto place = window().template place_of<false>(t);
+        if (place == 0) place = insert_place(t);
         if (std::exchange(pool_[place], index) == absent) ++size_;
     }
-    bool erase(Id id) noexcept {
+    bool erase(Id t) noexcept {
         const auto map = window();
-        if (map.word_of(id) >= map.count) return false;
+        if (map.word_of(t) >= map.count) return false;
         // Place 0 stays absent.
-        if (std::exchange(pool_[map.template place_of<false>(id)], absent) == absent) return false;
+        if (std::exchange(pool_[map.template place_of<false>(t)], absent) == absent) return false;
         --size_;
         return true;
     }
@@ -179,14 +179,14 @@ private:
     [[nodiscard]] static unsigned_type first_fit(unsigned_type first, std::size_t words) noexcept {
         return static_cast<unsigned_type>((std::min)(std::uint64_t{first}, all_words - words));
     }
-    [[nodiscard]] static unsigned_type word_number(Id id) noexcept {
-        return static_cast<unsigned_type>(static_cast<unsigned_type>(id) / word_bits);
+    [[nodiscard]] static unsigned_type word_number(Id t) noexcept {
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(t) / word_bits);
     }
     void check(const char* member, std::uint64_t words, std::uint64_t entries, std::size_t count,
-               std::uint64_t id) const {
+               std::uint64_t t) const {
         if (limit_.admits(bytes_of(words, entries), count)) return;
         const auto where = std::string("bitmap_storage::") + member;
-        limit_.check(where.c_str(), bytes_of(words, entries), count, id,
+        limit_.check(where.c_str(), bytes_of(words, entries), count, t,
                      "use flat_storage, whose size does not depend on the range, or raise the limit");
     }
 
@@ -242,8 +242,8 @@ private:
         first_word_ = first;
     }
     // The window grows to the id, at least to twice its size, with the slack on the side of the id.
-    [[gnu::noinline]] void widen(Id id) {
-        const auto wanted = word_number(id);
+    [[gnu::noinline]] void widen(Id t) {
+        const auto wanted = word_number(t);
         if (size_ == 0 && !words_.empty()) {  // nothing to keep: the window moves to the id
             clear();
             first_word_ = first_fit(wanted, words_.size());
@@ -256,7 +256,7 @@ private:
             high = (std::max)(high, std::uint64_t{first_word_} + (words_.size() - 1));
         }
         const auto entries = (std::max)(pool_.size(), word_bits);
-        check("assign", high - low + 1, entries, size_ + 1, static_cast<std::uint64_t>(id));
+        check("assign", high - low + 1, entries, size_ + 1, static_cast<std::uint64_t>(t));
         const std::uint64_t doubled = (std::min)(2 * std::uint64_t{words_.size()} + 16, all_words);
         if (doubled > high - low + 1 && limit_.admits(bytes_of(doubled, entries), size_ + 1)) {
             const auto slack = doubled - (high - low + 1);
@@ -270,19 +270,19 @@ private:
     }
 
     // Sets the bit of an id and makes a place for its index, absent so far.
-    [[gnu::noinline]] std::size_t insert_place(Id id) {
-        const auto w = static_cast<std::size_t>(window().word_of(id));
+    [[gnu::noinline]] std::size_t insert_place(Id t) {
+        const auto w = static_cast<std::size_t>(window().word_of(t));
         auto old_count = std::size_t{detail::popcount<false>(words_[w])};
         if (used_ + old_count + 1 > pool_.size()) {
             // As much room for moves as there are indices, and at least for one: O(64 + T / N) per id in the mean.
             const std::uint64_t least = std::uint64_t{size_} + 2 + word_bits;
             const std::uint64_t doubled = (std::max)(least + size_, std::uint64_t{reserved_} + 1);
             const auto fits = doubled <= most_entries && limit_.admits(bytes_of(words_.size(), doubled), size_ + 1);
-            if (!fits) check("assign", words_.size(), least, size_ + 1, static_cast<std::uint64_t>(id));
+            if (!fits) check("assign", words_.size(), least, size_ + 1, static_cast<std::uint64_t>(t));
             copy_pool(static_cast<std::size_t>(fits ? doubled : least));
             old_count = detail::popcount<false>(words_[w]);
         }
-        const auto bit = static_cast<unsigned>(static_cast<unsigned_type>(id) & 63U);
+        const auto bit = static_cast<unsigned>(static_cast<unsigned_type>(t) & 63U);
         const auto below = std::size_t{detail::popcount<false>(words_[w] & ((std::uint64_t{1} << bit) - 1))};
         const auto from = std::size_t{starts_[w]};
         const bool is_last = old_count != 0 && from + old_count == used_;

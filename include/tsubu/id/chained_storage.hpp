@@ -75,8 +75,8 @@ public:
     }
     ~chained_storage() = default;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        return heads_.empty() ? absent : find_in(heads_[bucket_of(id)], id);
+    [[nodiscard]] index_t find(Id t) const noexcept {
+        return heads_.empty() ? absent : find_in(heads_[bucket_of(t)], t);
     }
     void find(std::span<const Id> ids, std::span<index_t> out) const noexcept {
         if (heads_.empty()) {
@@ -92,8 +92,8 @@ public:
             for (std::size_t k = 0; k < count; ++k) out[begin + k] = find_in(head[k], ids[begin + k]);
         }
     }
-    void prefetch(Id id) const noexcept {
-        if (!heads_.empty()) detail::prefetch(heads_.data() + bucket_of(id));
+    void prefetch(Id t) const noexcept {
+        if (!heads_.empty()) detail::prefetch(heads_.data() + bucket_of(t));
     }
 
     /// @throws limit_error if N > M and the new size passes the memory limit. Strong guarantee.
@@ -110,15 +110,15 @@ public:
     }
 
     /// @throws limit_error if all nodes are taken and a larger pool would pass the memory limit. Strong guarantee.
-    void assign(Id id, index_t index) {
-        if (free_ == nil && find(id) == absent) resize("assign", size_ + 1);
-        insert(id, index);
+    void assign(Id t, index_t index) {
+        if (free_ == nil && find(t) == absent) resize("assign", size_ + 1);
+        insert(t, index);
     }
-    bool erase(Id id) noexcept {
+    bool erase(Id t) noexcept {
         if (heads_.empty()) return false;
-        for (auto* from = &heads_[bucket_of(id)]; *from != nil; from = &nodes_[*from].next) {
+        for (auto* from = &heads_[bucket_of(t)]; *from != nil; from = &nodes_[*from].next) {
             const auto at = *from;
-            if (nodes_[at].id != id) continue;
+            if (nodes_[at].id != t) continue;
             *from = std::exchange(nodes_[at].next, free_);
             free_ = at;
             --size_;
@@ -169,23 +169,23 @@ private:
     static_assert(sizeof(node) == sizeof(Id) + 8, "chained_bytes_per_id counts 16 bytes for 64-bit ids");
     static constexpr std::uint32_t nil = ~std::uint32_t{0};
 
-    [[nodiscard]] std::size_t bucket_of(Id id) const noexcept {
-        const std::uint64_t value = static_cast<detail::unsigned_id<Id>>(id);
+    [[nodiscard]] std::size_t bucket_of(Id t) const noexcept {
+        const std::uint64_t value = static_cast<detail::unsigned_id<Id>>(t);
         return static_cast<std::size_t>(Hash::bucket(value, heads_.size()));
     }
-    [[nodiscard]] index_t find_in(std::uint32_t at, Id id) const noexcept {
+    [[nodiscard]] index_t find_in(std::uint32_t at, Id t) const noexcept {
         for (; at != nil; at = nodes_[at].next)
-            if (nodes_[at].id == id) return nodes_[at].index;
+            if (nodes_[at].id == t) return nodes_[at].index;
         return absent;
     }
     // The old index, absent if the id is new. Precondition: id is present, or a node is free.
-    index_t insert(Id id, index_t index) noexcept {
-        auto* end = &heads_[bucket_of(id)];
+    index_t insert(Id t, index_t index) noexcept {
+        auto* end = &heads_[bucket_of(t)];
         for (; *end != nil; end = &nodes_[*end].next)
-            if (nodes_[*end].id == id) return std::exchange(nodes_[*end].index, index);
+            if (nodes_[*end].id == t) return std::exchange(nodes_[*end].index, index);
         const auto at = free_;
         free_ = nodes_[at].next;
-        nodes_[at] = {id, index, nil};
+        nodes_[at] = {t, index, nil};
         *end = at;
         ++size_;
         return absent;

@@ -30,17 +30,17 @@ namespace tsubu {
 /// Read side: where is this id, and how much is there.
 template <class Storage>
 concept id_storage_lookup = particle_id<typename Storage::id_type> &&
-                            requires(const Storage& storage, typename Storage::id_type id) {
-                                { storage.find(id) } noexcept -> std::same_as<index_t>;
+                            requires(const Storage& storage, typename Storage::id_type t) {
+                                { storage.find(t) } noexcept -> std::same_as<index_t>;
                                 { storage.size() } noexcept -> std::same_as<std::size_t>;
                                 { storage.memory_bytes() } noexcept -> std::same_as<std::size_t>;
                             };
 
 /// Write side, one id at a time.
 template <class Storage>
-concept id_storage_update = requires(Storage& storage, typename Storage::id_type id, index_t index) {
-    { storage.assign(id, index) } -> std::same_as<void>;
-    { storage.erase(id) } noexcept -> std::same_as<bool>;
+concept id_storage_update = requires(Storage& storage, typename Storage::id_type t, index_t index) {
+    { storage.assign(t, index) } -> std::same_as<void>;
+    { storage.erase(t) } noexcept -> std::same_as<bool>;
 };
 
 /// Write side, all ids at once.
@@ -85,8 +85,8 @@ concept batched_lookup =
 
 /// Ability: fetch the memory that find(id) will read into the cache; no answer changes.
 template <class Storage>
-concept prefetchable = id_storage<Storage> && requires(const Storage& storage, typename Storage::id_type id) {
-    { storage.prefetch(id) } noexcept -> std::same_as<void>;
+concept prefetchable = id_storage<Storage> && requires(const Storage& storage, typename Storage::id_type t) {
+    { storage.prefetch(t) } noexcept -> std::same_as<void>;
 };
 
 /// Ability: rebuild with any executor, of which two are tried here; every answer and every link as if built by one

@@ -82,16 +82,16 @@ public:
     }
     ~dense_storage() = default;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        const std::uint64_t offset = offset_of(id);
+    [[nodiscard]] index_t find(Id t) const noexcept {
+        const std::uint64_t offset = offset_of(t);
         return offset < table_.size() ? table_[static_cast<std::size_t>(offset)] : absent;
     }
     void find(std::span<const Id> ids, std::span<index_t> out) const noexcept {
         detail::gather(best_instruction_set(), detail::flat_window<Id>{table_.data(), table_.size(), lowest_},
                        ids.data(), out.data(), ids.size());
     }
-    void prefetch(Id id) const noexcept {
-        if (const std::uint64_t offset = offset_of(id); offset < table_.size())
+    void prefetch(Id t) const noexcept {
+        if (const std::uint64_t offset = offset_of(t); offset < table_.size())
             detail::prefetch(table_.data() + offset);
     }
 
@@ -118,14 +118,14 @@ public:
 
     /// O(1) inside the range, also if the id is new; outside, the table grows.
     /// @throws limit_error if it would pass the memory limit. Strong guarantee.
-    void assign(Id id, index_t index) {
-        if (offset_of(id) >= table_.size()) grow(id);
-        const auto offset = static_cast<std::size_t>(offset_of(id));
+    void assign(Id t, index_t index) {
+        if (offset_of(t) >= table_.size()) grow(t);
+        const auto offset = static_cast<std::size_t>(offset_of(t));
         touched_[offset / block_size] = 1;
         if (std::exchange(table_[offset], index) == absent) ++size_;
     }
-    bool erase(Id id) noexcept {
-        const std::uint64_t offset = offset_of(id);
+    bool erase(Id t) noexcept {
+        const std::uint64_t offset = offset_of(t);
         if (offset >= table_.size() || std::exchange(table_[static_cast<std::size_t>(offset)], absent) == absent)
             return false;
         --size_;
@@ -170,8 +170,8 @@ private:
 
     // Ids below lowest_ and negative ones wrap to offsets past the end, because the table never reaches past the
     // largest id.
-    [[nodiscard]] std::uint64_t offset_of(Id id) const noexcept {
-        return static_cast<unsigned_type>(static_cast<unsigned_type>(id) - lowest_);
+    [[nodiscard]] std::uint64_t offset_of(Id t) const noexcept {
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(t) - lowest_);
     }
     [[nodiscard]] static std::size_t blocks_of(std::size_t entries) noexcept {
         return entries / block_size + (entries % block_size != 0 ? 1 : 0);
@@ -186,10 +186,10 @@ private:
     [[nodiscard]] static unsigned_type lowest_fit(unsigned_type lowest, std::size_t entries) noexcept {
         return static_cast<unsigned_type>((std::min)(std::uint64_t{lowest}, largest_id - (entries - 1)));
     }
-    void check(const char* member, std::uint64_t extent, std::size_t count, std::uint64_t id) const {
+    void check(const char* member, std::uint64_t extent, std::size_t count, std::uint64_t t) const {
         if (limit_.admits(bytes_of(extent), count)) return;
         const auto where = std::string("dense_storage::") + member;
-        limit_.check(where.c_str(), bytes_of(extent), count, id,
+        limit_.check(where.c_str(), bytes_of(extent), count, t,
                      "use flat_storage, whose size does not depend on the range, or raise the limit");
     }
 
@@ -239,8 +239,8 @@ private:
         touched_ = std::move(fresh_touched);
         lowest_ = lowest;
     }
-    [[gnu::noinline]] void grow(Id id) {
-        const auto wanted = static_cast<unsigned_type>(id);
+    [[gnu::noinline]] void grow(Id t) {
+        const auto wanted = static_cast<unsigned_type>(t);
         if (size_ == 0 && !table_.empty()) {  // nothing to keep: the window moves to the id
             lowest_ = lowest_fit(wanted, table_.size());
             return;
@@ -294,14 +294,14 @@ private:
     // Everything that the loop reads is a local: what is stored might alias a member.
     template <bool Marks, bool Links>
     std::size_t insert_loop(std::span<const Id> ids, std::span<index_t> links) noexcept {
-        const Id* const id = ids.data();
+        const Id* const t = ids.data();
         index_t* const link = links.data();
         index_t* const entry = table_.data();
         unsigned char* const touched = touched_.data();
         const unsigned_type lowest = lowest_;
         std::uint32_t different = 0;
         const auto insert = [=, &different](std::size_t i) {
-            const std::size_t offset = static_cast<unsigned_type>(static_cast<unsigned_type>(id[i]) - lowest);
+            const std::size_t offset = static_cast<unsigned_type>(static_cast<unsigned_type>(t[i]) - lowest);
             const index_t next = entry[offset];
             entry[offset] = static_cast<index_t>(i);
             if constexpr (Marks) touched[offset / block_size] = 1;

@@ -77,8 +77,8 @@ public:
     }
     ~flat_storage() = default;
 
-    [[nodiscard, gnu::always_inline]] index_t find(Id id) const noexcept {
-        return find_(table_, stash_, static_cast<std::uint64_t>(id));
+    [[nodiscard, gnu::always_inline]] index_t find(Id t) const noexcept {
+        return find_(table_, stash_, static_cast<std::uint64_t>(t));
     }
     void find(std::span<const Id> ids, std::span<index_t> indices) const noexcept {
         const auto blocks = ids.size() / detail::block_size;
@@ -91,9 +91,9 @@ public:
             });
         for (std::size_t k = blocks * detail::block_size; k < ids.size(); ++k) indices[k] = find(ids[k]);
     }
-    void prefetch(Id id) const noexcept {
+    void prefetch(Id t) const noexcept {
         with_lines([&]<class Layout>(Layout) {
-            const auto x = static_cast<std::uint64_t>(id) - table_.base;
+            const auto x = static_cast<std::uint64_t>(t) - table_.base;
             if (table_.may_hold<Layout>(x))
                 detail::prefetch_place<Layout, false>(table_,
                                                       static_cast<std::uint32_t>(table_.locate<Layout>(x).place));
@@ -127,16 +127,16 @@ public:
     }
 
     /// @throws limit_error if the table must grow past the memory limit. Strong guarantee.
-    void assign(Id id, index_t index) {
-        const auto key = static_cast<std::uint64_t>(id);
-        if (may_hold(key) && detail::index_fits(table_, index) && (used_ < room_ || find(id) != absent) &&
+    void assign(Id t, index_t index) {
+        const auto key = static_cast<std::uint64_t>(t);
+        if (may_hold(key) && detail::index_fits(table_, index) && (used_ < room_ || find(t) != absent) &&
             insert(key, index))
             return;
         grow_with(key, index);
     }
-    bool erase(Id id) noexcept {
+    bool erase(Id t) noexcept {
         return with_lines([&]<class Layout>(Layout) {
-            const auto x = static_cast<std::uint64_t>(id) - table_.base;
+            const auto x = static_cast<std::uint64_t>(t) - table_.base;
             if (!table_.may_hold<Layout>(x)) return false;
             const auto at = table_.locate<Layout>(x);
             const auto end = detail::walk<Layout>(table_, at.place, at.tag, table_.lines + detail::spill_lines);

@@ -12,8 +12,8 @@ namespace tsubu {
 
 /// A hash policy: bucket(id, bucket_count) < bucket_count, the same for equal arguments.
 template <class Hash>
-concept bucket_hash = std::semiregular<Hash> && requires(std::uint64_t id, std::uint64_t bucket_count) {
-    { Hash::bucket(id, bucket_count) } noexcept -> std::same_as<std::uint64_t>;
+concept bucket_hash = std::semiregular<Hash> && requires(std::uint64_t t, std::uint64_t bucket_count) {
+    { Hash::bucket(t, bucket_count) } noexcept -> std::same_as<std::uint64_t>;
 };
 
 /// h(t) = t mod B, the notes' hash.
@@ -25,8 +25,8 @@ concept bucket_hash = std::semiregular<Hash> && requires(std::uint64_t id, std::
 ///                cost 1.3e8 node visits per rebuild.
 /// Source:        A9.
 struct mod_prime {
-    [[nodiscard]] static constexpr std::uint64_t bucket(std::uint64_t id, std::uint64_t bucket_count) noexcept {
-        return id % bucket_count;
+    [[nodiscard]] static constexpr std::uint64_t bucket(std::uint64_t t, std::uint64_t bucket_count) noexcept {
+        return t % bucket_count;
     }
 };
 static_assert(bucket_hash<mod_prime>);
@@ -41,8 +41,8 @@ static_assert(bucket_hash<mod_prime>);
 /// Do not when    chains are to be those of the notes' scheme.
 /// Source:        splitmix64; the multiply-shift reduction of Lemire 2019, doi:10.1145/3230636.
 struct mixed {
-    [[nodiscard]] static constexpr std::uint64_t bucket(std::uint64_t id, std::uint64_t bucket_count) noexcept {
-        const std::uint64_t high = splitmix64(id) >> 32;
+    [[nodiscard]] static constexpr std::uint64_t bucket(std::uint64_t t, std::uint64_t bucket_count) noexcept {
+        const std::uint64_t high = splitmix64(t) >> 32;
         // B is at most 2^32 + 15, the prime above 2 (2^31 - 1): past 2^32 the product may wrap, but into a bucket.
         return (high * bucket_count) >> 32;
     }

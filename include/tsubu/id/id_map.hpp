@@ -49,8 +49,8 @@ public:
     explicit id_map(Storage storage) : storage_(std::move(storage)) {}
 
     /// Index of the lowest copy of `id`, or absent. Any value may be asked for, negative ones as well.
-    [[nodiscard]] index_t find(id_type id) const noexcept { return storage_.find(id); }
-    [[nodiscard]] bool contains(id_type id) const noexcept { return find(id) != absent; }
+    [[nodiscard]] index_t find(id_type t) const noexcept { return storage_.find(t); }
+    [[nodiscard]] bool contains(id_type t) const noexcept { return find(t) != absent; }
 
     /// indices[k] = find(ids[k]) for all k: independent look-ups in flight together.
     /// @throws input_error if the spans differ in length; nothing is written then.
@@ -68,16 +68,16 @@ public:
     }
 
     /// Says that find(id) will be called soon: a few dozen other look-ups later, it no longer waits for memory.
-    void prefetch(id_type id) const noexcept {
-        if constexpr (prefetchable<Storage>) storage_.prefetch(id);
+    void prefetch(id_type t) const noexcept {
+        if constexpr (prefetchable<Storage>) storage_.prefetch(t);
     }
 
     /// Index of the lowest copy of `id`. @throws input_error if absent; the message names the id.
-    [[nodiscard]] index_t at(id_type id) const {
-        const auto index = find(id);
+    [[nodiscard]] index_t at(id_type t) const {
+        const auto index = find(t);
         if (index == absent) [[unlikely]]
             detail::raise<input_error>("id_map::at",
-                                       "id " + std::to_string(id) + " is not among the " + std::to_string(size()) +
+                                       "id " + std::to_string(t) + " is not among the " + std::to_string(size()) +
                                            " ids of this rank",
                                        "use find() where absence is normal");
         return index;
@@ -127,24 +127,24 @@ public:
     /// Inserts the id or overwrites its index; links are not touched. Strong guarantee.
     /// @throws input_error for a negative id or index; limit_error for index 2^31 - 1; what the policy throws when it
     ///         grows.
-    void assign(id_type id, index_t index) {
-        if (detail::is_negative(id)) [[unlikely]]
-            detail::raise<input_error>("id_map::assign", "id " + std::to_string(id) + " is negative",
+    void assign(id_type t, index_t index) {
+        if (detail::is_negative(t)) [[unlikely]]
+            detail::raise<input_error>("id_map::assign", "id " + std::to_string(t) + " is negative",
                                        "number particles from 0 or 1");
         if (index < 0) [[unlikely]]
             detail::raise<input_error>("id_map::assign",
-                                       "index " + std::to_string(index) + " of id " + std::to_string(id) +
+                                       "index " + std::to_string(index) + " of id " + std::to_string(t) +
                                            " is negative",
                                        "erase(id) forgets an id");
         if (static_cast<std::size_t>(index) >= max_index_count) [[unlikely]]
             detail::raise<limit_error>("id_map::assign",
-                                       "index " + std::to_string(index) + " of id " + std::to_string(id) +
+                                       "index " + std::to_string(index) + " of id " + std::to_string(t) +
                                            " is past the last, " + std::to_string(max_index_count - 1),
                                        "spread the particles over more ranks");
-        storage_.assign(id, index);
+        storage_.assign(t, index);
     }
     /// Forgets the id; links are not touched. @return whether it was there.
-    bool erase(id_type id) noexcept { return storage_.erase(id); }
+    bool erase(id_type t) noexcept { return storage_.erase(t); }
 
     /// Makes room for `count` ids, so that a rebuild of that many needs no memory as long as their range allows.
     /// @throws limit_error for count >= 2^31.
@@ -190,11 +190,11 @@ private:
             storage_.rebuild(ids, range, links);
         }
     }
-    [[nodiscard]] static bool holds(std::span<const id_type> ids, index_t at, id_type id) noexcept {
-        return static_cast<std::size_t>(at) < ids.size() && ids[static_cast<std::size_t>(at)] == id;
+    [[nodiscard]] static bool holds(std::span<const id_type> ids, index_t at, id_type t) noexcept {
+        return static_cast<std::size_t>(at) < ids.size() && ids[static_cast<std::size_t>(at)] == t;
     }
     // Take one copy out of the chain of its id, and put one in at its place.
-    void unlink(id_type id, index_t index, std::span<index_t> links);
+    void unlink(id_type t, index_t index, std::span<index_t> links);
     void link(std::span<const id_type> after, index_t index, std::span<index_t> links);
 
     Storage storage_{};
@@ -256,11 +256,11 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
 
 // An id whose last copy goes stays in the table with a stale index: it may come back, and that must take no memory.
 template <id_storage Storage>
-void id_map<Storage>::unlink(id_type id, index_t index, std::span<index_t> links) {
+void id_map<Storage>::unlink(id_type t, index_t index, std::span<index_t> links) {
     const auto next = links[static_cast<std::size_t>(index)];
-    auto at = storage_.find(id);
+    auto at = storage_.find(t);
     if (at == index) {
-        if (next != absent) storage_.assign(id, next);
+        if (next != absent) storage_.assign(t, next);
         return;
     }
     while (at != absent && at < index) {  // at < index: a stale link can end the walk, never prolong it
@@ -275,17 +275,17 @@ void id_map<Storage>::unlink(id_type id, index_t index, std::span<index_t> links
 
 template <id_storage Storage>
 void id_map<Storage>::link(std::span<const id_type> after, index_t index, std::span<index_t> links) {
-    const auto id = after[static_cast<std::size_t>(index)];
+    const auto t = after[static_cast<std::size_t>(index)];
     auto& own = links[static_cast<std::size_t>(index)];
-    auto at = storage_.find(id);
-    if (at == index || !holds(after, at, id)) {  // the first copy of an id that was inserted, or had lost all
+    auto at = storage_.find(t);
+    if (at == index || !holds(after, at, t)) {  // the first copy of an id that was inserted, or had lost all
         own = absent;
-        if (at != index) storage_.assign(id, index);
+        if (at != index) storage_.assign(t, index);
         return;
     }
     if (at > index) {
         own = at;
-        storage_.assign(id, index);
+        storage_.assign(t, index);
         return;
     }
     while (links[static_cast<std::size_t>(at)] != absent && links[static_cast<std::size_t>(at)] < index)

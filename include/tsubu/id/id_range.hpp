@@ -20,15 +20,15 @@ struct id_range {
     Id highest = (std::numeric_limits<Id>::min)();
 
     [[nodiscard]] constexpr bool empty() const noexcept { return lowest > highest; }
-    [[nodiscard]] constexpr bool contains(Id id) const noexcept { return lowest <= id && id <= highest; }
+    [[nodiscard]] constexpr bool contains(Id t) const noexcept { return lowest <= t && t <= highest; }
     /// highest - lowest, exact for every pair. Precondition: not empty().
     [[nodiscard]] constexpr std::uint64_t extent() const noexcept {
         using unsigned_type = detail::unsigned_id<Id>;
         return static_cast<unsigned_type>(static_cast<unsigned_type>(highest) - static_cast<unsigned_type>(lowest));
     }
     /// The least range that holds this one and the id.
-    [[nodiscard]] constexpr id_range with(Id id) const noexcept {
-        return {(std::min)(lowest, id), (std::max)(highest, id)};
+    [[nodiscard]] constexpr id_range with(Id t) const noexcept {
+        return {(std::min)(lowest, t), (std::max)(highest, t)};
     }
     friend constexpr bool operator==(const id_range&, const id_range&) = default;
 };
@@ -42,7 +42,7 @@ template <particle_id Id>
     const std::size_t whole = ids.size() / lanes * lanes;
     for (std::size_t i = 0; i < whole; i += lanes)
         for (std::size_t k = 0; k < lanes; ++k) lane[k] = lane[k].with(ids[i + k]);
-    for (const Id id : ids.last(ids.size() % lanes)) lane[0] = lane[0].with(id);
+    for (const Id t : ids.last(ids.size() % lanes)) lane[0] = lane[0].with(t);
     for (std::size_t k = 1; k < lanes; ++k) {
         lane[0].lowest = (std::min)(lane[0].lowest, lane[k].lowest);
         lane[0].highest = (std::max)(lane[0].highest, lane[k].highest);

@@ -40,11 +40,11 @@ public:
         return needed <= bytes(count);
     }
     /// @throws limit_error that names the place, the id that forces the size, the bytes, and what to use instead.
-    void check(const char* where, std::uint64_t needed, std::size_t count, std::uint64_t id,
+    void check(const char* where, std::uint64_t needed, std::size_t count, std::uint64_t t,
                const char* instead) const {
         if (admits(needed, count)) return;
         detail::raise<limit_error>(where,
-                                   "id " + std::to_string(id) + " among " + std::to_string(count) +
+                                   "id " + std::to_string(t) + " among " + std::to_string(count) +
                                        " ids needs a table of " + std::to_string(needed) + " bytes, the limit is " +
                                        std::to_string(bytes(count)),
                                    instead);

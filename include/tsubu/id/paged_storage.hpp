@@ -83,9 +83,9 @@ public:
     }
     ~paged_storage() = default;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        const std::uint64_t place = place_of(id);
-        return place < directory_.size() ? pool_[entry_of(directory_[static_cast<std::size_t>(place)], id)] : absent;
+    [[nodiscard]] index_t find(Id t) const noexcept {
+        const std::uint64_t place = place_of(t);
+        return place < directory_.size() ? pool_[entry_of(directory_[static_cast<std::size_t>(place)], t)] : absent;
     }
     void find(std::span<const Id> ids, std::span<index_t> out) const noexcept {
         detail::gather(best_instruction_set(),
@@ -94,9 +94,9 @@ public:
                        ids.data(), out.data(), ids.size());
     }
     /// Loads the directory, which is small, to know which entry to fetch.
-    void prefetch(Id id) const noexcept {
-        if (const std::uint64_t place = place_of(id); place < directory_.size())
-            detail::prefetch(pool_.data() + entry_of(directory_[static_cast<std::size_t>(place)], id));
+    void prefetch(Id t) const noexcept {
+        if (const std::uint64_t place = place_of(t); place < directory_.size())
+            detail::prefetch(pool_.data() + entry_of(directory_[static_cast<std::size_t>(place)], t));
     }
 
     /// @throws limit_error if directory and pages need more than the memory limit. Strong guarantee.
@@ -118,21 +118,21 @@ public:
     }
 
     /// @throws limit_error if directory or pages would pass the memory limit. Strong guarantee.
-    void assign(Id id, index_t index) {
-        if (place_of(id) >= directory_.size()) widen(id);
-        const auto place = static_cast<std::size_t>(place_of(id));
+    void assign(Id t, index_t index) {
+        if (place_of(t) >= directory_.size()) widen(t);
+        const auto place = static_cast<std::size_t>(place_of(t));
         if (directory_[place] == 0) {
-            if (used_ == page_count()) grow_pool(id);
+            if (used_ == page_count()) grow_pool(t);
             take_page(place);
         }
-        if (std::exchange(pool_[entry_of(directory_[place], id)], index) == absent) ++size_;
+        if (std::exchange(pool_[entry_of(directory_[place], t)], index) == absent) ++size_;
     }
     /// The page stays until the next rebuild.
-    bool erase(Id id) noexcept {
-        const std::uint64_t place = place_of(id);
+    bool erase(Id t) noexcept {
+        const std::uint64_t place = place_of(t);
         if (place >= directory_.size()) return false;
         // An entry of page 0 is absent and stays so.
-        auto& entry = pool_[entry_of(directory_[static_cast<std::size_t>(place)], id)];
+        auto& entry = pool_[entry_of(directory_[static_cast<std::size_t>(place)], t)];
         if (entry == absent) return false;
         entry = absent;
         --size_;
@@ -145,8 +145,8 @@ public:
         const auto pages = static_cast<std::size_t>(count >> Options.page_bits) + 3;  // both ends, and page 0
         const auto reachable = static_cast<std::size_t>((std::min)(std::uint64_t{pages}, all_pages));
         const auto places = (std::max)(directory_.size(), reachable);
-        const auto id = count == 0 ? 0 : count - 1;
-        check("reserve", places, (std::max)(pages, page_count()), count, id);
+        const auto t = count == 0 ? 0 : count - 1;
+        check("reserve", places, (std::max)(pages, page_count()), count, t);
         if (pages > page_count()) regrow_pool(pages);
         if (places > directory_.size()) regrow_directory(first_fit(first_, places), places);
         reserved_ = (std::max)(reserved_, pages);
@@ -189,16 +189,16 @@ private:
     static constexpr std::size_t least_shrunk = 1024;           // places: less is not worth giving back
     static constexpr std::uint32_t marked = ~std::uint32_t{0};  // has ids, but no memory yet
 
-    [[nodiscard]] static unsigned_type page_number(Id id) noexcept {
-        return static_cast<unsigned_type>(static_cast<unsigned_type>(id) >> Options.page_bits);
+    [[nodiscard]] static unsigned_type page_number(Id t) noexcept {
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(t) >> Options.page_bits);
     }
     // The directory never reaches past the largest id, so ids below it and negative ones wrap to places past its end.
-    [[nodiscard]] std::uint64_t place_of(Id id) const noexcept {
-        return static_cast<unsigned_type>(page_number(id) - first_);
+    [[nodiscard]] std::uint64_t place_of(Id t) const noexcept {
+        return static_cast<unsigned_type>(page_number(t) - first_);
     }
-    [[nodiscard]] static std::size_t entry_of(std::uint32_t page, Id id) noexcept {
+    [[nodiscard]] static std::size_t entry_of(std::uint32_t page, Id t) noexcept {
         return (std::size_t{page} << Options.page_bits) |
-               static_cast<std::size_t>(static_cast<unsigned_type>(id) & (page_size - 1));
+               static_cast<std::size_t>(static_cast<unsigned_type>(t) & (page_size - 1));
     }
     [[nodiscard]] static unsigned_type first_fit(unsigned_type first, std::size_t places) noexcept {
         return static_cast<unsigned_type>((std::min)(std::uint64_t{first}, all_pages - places));
@@ -210,10 +210,10 @@ private:
         return places * sizeof(std::uint32_t) + pages * (page_size * sizeof(index_t) + sizeof(std::size_t));
     }
     void check(const char* member, std::uint64_t places, std::uint64_t pages, std::size_t count,
-               std::uint64_t id) const {
+               std::uint64_t t) const {
         if (limit_.admits(bytes_of(places, pages), count)) return;
         const auto where = std::string("paged_storage::") + member;
-        limit_.check(where.c_str(), bytes_of(places, pages), count, id,
+        limit_.check(where.c_str(), bytes_of(places, pages), count, t,
                      "use flat_storage, whose size does not depend on the range, or raise the limit");
     }
 
@@ -263,7 +263,7 @@ private:
             check("rebuild", needed, pages, ids.size(), highest);
             fit_pool(pages, directory_.size(), ids.size());
         } catch (...) {
-            for (const auto id : ids) directory_[static_cast<std::size_t>(place_of(id))] = 0;
+            for (const auto t : ids) directory_[static_cast<std::size_t>(place_of(t))] = 0;
             first_ = old_first;
             for (std::size_t page = 1; page < used_; ++page)
                 directory_[places_[page]] = static_cast<std::uint32_t>(page);
@@ -274,8 +274,8 @@ private:
     [[nodiscard]] static std::size_t mark(number_buffer& directory, unsigned_type first,
                                           std::span<const Id> ids) noexcept {
         std::size_t pages = 0;
-        for (const auto id : ids) {
-            const auto place = static_cast<std::size_t>(static_cast<unsigned_type>(page_number(id) - first));
+        for (const auto t : ids) {
+            const auto place = static_cast<std::size_t>(static_cast<unsigned_type>(page_number(t) - first));
             pages += directory[place] == 0 ? 1U : 0U;
             directory[place] = marked;
         }
@@ -328,16 +328,16 @@ private:
         directory_ = std::move(fresh);
         first_ = first;
     }
-    [[gnu::noinline]] void grow_pool(Id id) {
+    [[gnu::noinline]] void grow_pool(Id t) {
         const std::uint64_t least = used_ + 1;
         const std::uint64_t doubled = 2 * std::uint64_t{used_};
         const bool fits = limit_.admits(bytes_of(directory_.size(), doubled), size_ + 1);
-        if (!fits) check("assign", directory_.size(), least, size_ + 1, static_cast<std::uint64_t>(id));
+        if (!fits) check("assign", directory_.size(), least, size_ + 1, static_cast<std::uint64_t>(t));
         regrow_pool(static_cast<std::size_t>(fits ? doubled : least));
     }
     // The directory grows to the id, at least to twice its size, with the slack on the side of the id.
-    [[gnu::noinline]] void widen(Id id) {
-        const auto wanted = page_number(id);
+    [[gnu::noinline]] void widen(Id t) {
+        const auto wanted = page_number(t);
         if (size_ == 0 && !directory_.empty()) {  // nothing to keep: the window moves to the id
             clear();
             first_ = first_fit(wanted, directory_.size());
@@ -350,7 +350,7 @@ private:
             high = (std::max)(high, std::uint64_t{first_} + (directory_.size() - 1));
         }
         const auto pages = (std::max)(page_count(), std::size_t{2});
-        check("assign", high - low + 1, pages, size_ + 1, static_cast<std::uint64_t>(id));
+        check("assign", high - low + 1, pages, size_ + 1, static_cast<std::uint64_t>(t));
         const std::uint64_t doubled = (std::min)(2 * std::uint64_t{directory_.size()} + 16, all_pages);
         if (doubled > high - low + 1 && limit_.admits(bytes_of(doubled, pages), size_ + 1)) {
             const auto slack = doubled - (high - low + 1);

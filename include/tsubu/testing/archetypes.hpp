@@ -36,8 +36,8 @@ class minimal_id_storage {
 public:
     using id_type = Id;
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        const auto at = indices_.find(id);
+    [[nodiscard]] index_t find(Id t) const noexcept {
+        const auto at = indices_.find(t);
         return at == indices_.end() ? absent : at->second;
     }
     [[nodiscard]] std::size_t size() const noexcept { return indices_.size(); }
@@ -46,12 +46,12 @@ public:
         return size() * (4 * sizeof(void*) + sizeof(typename std::map<Id, index_t>::value_type));
     }
 
-    void assign(Id id, index_t index) { indices_.insert_or_assign(id, index); }
-    bool erase(Id id) noexcept { return indices_.erase(id) != 0; }
+    void assign(Id t, index_t index) { indices_.insert_or_assign(t, index); }
+    bool erase(Id t) noexcept { return indices_.erase(t) != 0; }
 
     void rebuild(std::span<const Id> ids, id_range<Id> /*range*/, std::span<index_t> links) {
         std::map<Id, index_t> fresh;
-        for (const auto id : ids) fresh.emplace(id, absent);
+        for (const auto t : ids) fresh.emplace(t, absent);
         // The scan of the notes (A4, A13) takes no memory, so no link is written before all that can throw is done.
         for (std::size_t i = ids.size(); i-- > 0;) {
             auto& index = fresh.find(ids[i])->second;

@@ -42,32 +42,32 @@ public:
         }
         return links;
     }
-    void assign(Id id, index_t index) {
-        const auto at = place(id);
-        if (at != entries_.size() && entries_[at].id == id)
+    void assign(Id t, index_t index) {
+        const auto at = place(t);
+        if (at != entries_.size() && entries_[at].id == t)
             entries_[at].index = index;
         else
-            entries_.insert(entries_.begin() + static_cast<std::ptrdiff_t>(at), entry{id, index});
+            entries_.insert(entries_.begin() + static_cast<std::ptrdiff_t>(at), entry{t, index});
     }
-    bool erase(Id id) {
-        const auto at = place(id);
-        if (at == entries_.size() || entries_[at].id != id) return false;
+    bool erase(Id t) {
+        const auto at = place(t);
+        if (at == entries_.size() || entries_[at].id != t) return false;
         entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(at));
         return true;
     }
     void clear() noexcept { entries_.clear(); }
 
-    [[nodiscard]] index_t find(Id id) const noexcept {
-        const auto at = place(id);
-        return at != entries_.size() && entries_[at].id == id ? entries_[at].index : absent;
+    [[nodiscard]] index_t find(Id t) const noexcept {
+        const auto at = place(t);
+        return at != entries_.size() && entries_[at].id == t ? entries_[at].index : absent;
     }
     [[nodiscard]] std::size_t size() const noexcept { return entries_.size(); }
     /// In increasing id.
     [[nodiscard]] std::span<const entry> entries() const noexcept { return entries_; }
 
 private:
-    [[nodiscard]] std::size_t place(Id id) const noexcept {
-        const auto at = std::lower_bound(entries_.begin(), entries_.end(), id,
+    [[nodiscard]] std::size_t place(Id t) const noexcept {
+        const auto at = std::lower_bound(entries_.begin(), entries_.end(), t,
                                          [](const entry& a, Id value) { return a.id < value; });
         return static_cast<std::size_t>(at - entries_.begin());
     }

@@ -37,15 +37,15 @@ struct bitmap_window {
     std::uint64_t count;
     unsigned_id<Id> first;
 
-    [[nodiscard]] std::uint64_t word_of(Id id) const noexcept {
+    [[nodiscard]] std::uint64_t word_of(Id t) const noexcept {
         using unsigned_type = unsigned_id<Id>;
-        return static_cast<unsigned_type>(static_cast<unsigned_type>(static_cast<unsigned_type>(id) >> 6) - first);
+        return static_cast<unsigned_type>(static_cast<unsigned_type>(static_cast<unsigned_type>(t) >> 6) - first);
     }
     /// Place in the pool, 0 if the bit is not set. Precondition: word_of(id) < count.
     template <bool Native>
-    [[nodiscard, gnu::always_inline]] std::size_t place_of(Id id) const noexcept {
-        const auto w = static_cast<std::size_t>(word_of(id));
-        const auto bit = static_cast<unsigned>(static_cast<unsigned_id<Id>>(id) & 63U);
+    [[nodiscard, gnu::always_inline]] std::size_t place_of(Id t) const noexcept {
+        const auto w = static_cast<std::size_t>(word_of(t));
+        const auto bit = static_cast<unsigned>(static_cast<unsigned_id<Id>>(t) & 63U);
         const std::uint64_t below = words[w] & ((std::uint64_t{1} << bit) - 1);
         const std::uint64_t present = (words[w] >> bit) & 1U;
         return (starts[w] + popcount<Native>(below)) & (std::uint64_t{0} - present);

@@ -61,12 +61,12 @@ void gather_portable(const paged_window<Id>& table, const Id* ids, index_t* out,
     }
     const std::uint64_t mask = (std::uint64_t{1} << table.bits) - 1;
     for (std::size_t k = 0; k < n; ++k) {
-        const auto id = static_cast<unsigned_type>(ids[k]);
+        const auto t = static_cast<unsigned_type>(ids[k]);
         const std::uint64_t page =
-            static_cast<unsigned_type>(static_cast<unsigned_type>(id >> table.bits) - table.first);
+            static_cast<unsigned_type>(static_cast<unsigned_type>(t >> table.bits) - table.first);
         const bool inside = page < table.count;
         const std::uint64_t held = inside ? table.directory[inside ? page : 0] : 0;
-        out[k] = table.pool[(held << table.bits) | (id & mask)];
+        out[k] = table.pool[(held << table.bits) | (t & mask)];
     }
 }
 
@@ -125,13 +125,13 @@ template <particle_id Id>
     const __m128i none = _mm_set1_epi32(absent);
     std::size_t k = 0;
     for (; k + 4 <= n; k += 4) {
-        const __m256i id = lanes_avx2(ids + k);
-        const __m256i page = subtract_avx2<Id>(_mm256_srl_epi64(id, bits), first);
+        const __m256i t = lanes_avx2(ids + k);
+        const __m256i page = subtract_avx2<Id>(_mm256_srl_epi64(t, bits), first);
         const __m128i inside = below_avx2(page, count);
         const __m128i held = _mm256_mask_i64gather_epi32(
             _mm_setzero_si128(), reinterpret_cast<const int*>(table.directory), page, inside, 4);
         const __m256i at =
-            _mm256_or_si256(_mm256_sll_epi64(_mm256_cvtepu32_epi64(held), bits), _mm256_and_si256(id, mask));
+            _mm256_or_si256(_mm256_sll_epi64(_mm256_cvtepu32_epi64(held), bits), _mm256_and_si256(t, mask));
         _mm_storeu_si128(reinterpret_cast<__m128i*>(out + k),
                          _mm256_mask_i64gather_epi32(none, table.pool, at, inside, 4));
     }
@@ -184,12 +184,12 @@ template <particle_id Id>
     const __m256i none = _mm256_set1_epi32(absent);
     std::size_t k = 0;
     for (; k + 8 <= n; k += 8) {
-        const __m512i id = lanes_avx512(ids + k);
-        const __m512i page = subtract_avx512<Id>(_mm512_maskz_srl_epi64(0xff, id, bits), first);
+        const __m512i t = lanes_avx512(ids + k);
+        const __m512i page = subtract_avx512<Id>(_mm512_maskz_srl_epi64(0xff, t, bits), first);
         const __mmask8 inside = _mm512_cmplt_epu64_mask(page, count);
         const __m256i held = _mm512_mask_i64gather_epi32(_mm256_setzero_si256(), inside, page, table.directory, 4);
         const __m512i at = _mm512_or_si512(
-            _mm512_maskz_sll_epi64(0xff, _mm512_maskz_cvtepu32_epi64(0xff, held), bits), _mm512_and_si512(id, mask));
+            _mm512_maskz_sll_epi64(0xff, _mm512_maskz_cvtepu32_epi64(0xff, held), bits), _mm512_and_si512(t, mask));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + k),
                             _mm512_mask_i64gather_epi32(none, inside, at, table.pool, 4));
     }

@@ -151,8 +151,8 @@ struct avx2_kernels {
 
     template <class Layout, class Spills>
     [[gnu::target("avx2,bmi,bmi2")]] static index_t find(const line_table& table, const Spills& stash,
-                                                         std::uint64_t id) noexcept {
-        const auto x = id - table.base;
+                                                         std::uint64_t t) noexcept {
+        const auto x = t - table.base;
         if (!table.may_hold<Layout>(x)) return absent;
         const auto at = table.locate<Layout>(x);
         const auto first = at.place & ~std::uint64_t{Layout::slots - 1};

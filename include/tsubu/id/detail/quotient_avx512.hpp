@@ -155,8 +155,8 @@ struct avx512_kernels {
     template <class Layout, class Spills>
     [[gnu::target("avx512f,avx512bw,avx512vl,avx512dq,bmi,bmi2")]] static index_t find(const line_table& table,
                                                                                        const Spills& stash,
-                                                                                       std::uint64_t id) noexcept {
-        const auto x = id - table.base;
+                                                                                       std::uint64_t t) noexcept {
+        const auto x = t - table.base;
         if (!table.may_hold<Layout>(x)) return absent;
         const auto at = table.locate<Layout>(x);
         const auto end = search_line<Layout>(table, set1_mask<Layout>(table), at.place, at.tag);

@@ -104,8 +104,8 @@ struct portable_kernels {
     }
     /// Index of one id, or absent.
     template <class Layout, class Spills>
-    static index_t find(const line_table& table, const Spills& stash, std::uint64_t id) noexcept {
-        const auto x = id - table.base;
+    static index_t find(const line_table& table, const Spills& stash, std::uint64_t t) noexcept {
+        const auto x = t - table.base;
         if (!table.may_hold<Layout>(x)) return absent;
         const auto at = table.locate<Layout>(x);
         const auto first = at.place & ~std::uint64_t{Layout::slots - 1};

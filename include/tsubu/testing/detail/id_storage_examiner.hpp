@@ -119,7 +119,7 @@ private:
         std::vector<id_type> asked;
         asked.reserve(model.size() + former_.size() + 96);
         for (const auto& entry : model.entries()) asked.push_back(entry.id);
-        for (const auto id : former_) asked.push_back(id);
+        for (const auto t : former_) asked.push_back(t);
         const auto known = asked.size();
         for (std::size_t k = 0; k < 8; ++k) {
             const auto base = known == 0 ? bits{0} : static_cast<bits>(asked[random_.below(known)]);
@@ -172,7 +172,7 @@ private:
         }
         if constexpr (prefetchable<Storage>) {
             if (random_.below(8) == 0) {
-                for (const auto id : asked) storage.prefetch(id);
+                for (const auto t : asked) storage.prefetch(t);
                 for (std::size_t k = 0; k < asked.size(); ++k)
                     if (known_right && others_absent && storage.find(asked[k]) != expected[k]) still_right = false;
                 expect(still_right, testing::law::prefetched);
@@ -183,8 +183,8 @@ private:
         expect(storage.size() == 0 || storage.memory_bytes() != 0, testing::law::bytes);
     }
     void compare(const char* known_law) { compare(subject_, model_, known_law); }
-    void blame(id_type id, bool& right) noexcept {
-        if (right && blamed_ == no_blame) blamed_ = static_cast<bits>(id);
+    void blame(id_type t, bool& right) noexcept {
+        if (right && blamed_ == no_blame) blamed_ = static_cast<bits>(t);
         right = false;
     }
 
@@ -217,8 +217,8 @@ private:
             case 1: return static_cast<id_type>(static_cast<bits>(random_()) & static_cast<bits>(highest));
             default: {
                 if (entries.empty()) return static_cast<id_type>(random_.below(5000));
-                const auto id = entries[random_.below(entries.size())].id;
-                return random_.below(4) == 0 && id < highest ? static_cast<id_type>(id + 1) : id;
+                const auto t = entries[random_.below(entries.size())].id;
+                return random_.below(4) == 0 && t < highest ? static_cast<id_type>(t + 1) : t;
             }
         }
     }
@@ -263,23 +263,23 @@ private:
             compare(other, model_, testing::law::parallel);
         }
     }
-    void assign(id_type id, index_t index, bool with_all) {
+    void assign(id_type t, index_t index, bool with_all) {
         try {
-            subject_.assign(id, index);
+            subject_.assign(t, index);
         } catch (const limit_error&) {
             return compare(testing::law::strong);
         }
-        model_.assign(id, index);
-        blamed_ = static_cast<bits>(id);
-        expect(subject_.find(id) == index, testing::law::assigned);
+        model_.assign(t, index);
+        blamed_ = static_cast<bits>(t);
+        expect(subject_.find(t) == index, testing::law::assigned);
         blamed_ = no_blame;
         if (with_all) compare(testing::law::assigned_others);
     }
-    void erase(id_type id, bool with_all) {
-        blamed_ = static_cast<bits>(id);
-        const bool was_there = model_.erase(id);
-        expect(subject_.erase(id) == was_there, testing::law::erased);
-        expect(subject_.find(id) == absent, testing::law::erased);
+    void erase(id_type t, bool with_all) {
+        blamed_ = static_cast<bits>(t);
+        const bool was_there = model_.erase(t);
+        expect(subject_.erase(t) == was_there, testing::law::erased);
+        expect(subject_.find(t) == absent, testing::law::erased);
         blamed_ = no_blame;
         if (with_all) compare(testing::law::erased_others);
     }
@@ -429,7 +429,7 @@ private:
         const auto stride = 1 + random_.below(40);
         std::size_t number = 0;
         for (std::size_t k = 0; k < 1500; ++k) {
-            const auto id = static_cast<id_type>(first + stride * k);
+            const auto t = static_cast<id_type>(first + stride * k);
             const auto index = random_.below(64) == 0 ? some_index() : static_cast<index_t>(k);
             bool failed = false;
             if (random_.below(2) == 0)
@@ -437,7 +437,7 @@ private:
             else
                 gate.refuse_from(number % 4);
             try {
-                victim.assign(id, index);
+                victim.assign(t, index);
             } catch (const std::bad_alloc&) {
                 failed = true;
             } catch (const limit_error&) {
@@ -450,9 +450,9 @@ private:
             if (asked) ++number;
             if (failed) {
                 compare(victim, model_, testing::law::strong);
-                victim.assign(id, index);
+                victim.assign(t, index);
             }
-            model_.assign(id, index);
+            model_.assign(t, index);
             if (failed) compare(victim, model_, testing::law::recovers);
         }
         compare(victim, model_, testing::law::assigned_others);
@@ -462,16 +462,16 @@ private:
         if (former_.empty() || !rebuild(std::vector<id_type>(former_))) return;
         bool taken = true;
         for (std::size_t k = 0; k < 50 && taken; ++k) {
-            const auto id = former_[random_.below(former_.size())];
+            const auto t = former_[random_.below(former_.size())];
             const auto index = static_cast<index_t>(random_.below(former_.size()));
             gate.refuse_from(0);
             try {
-                subject_.assign(id, index);
+                subject_.assign(t, index);
             } catch (const std::bad_alloc&) {
                 taken = false;
             }
             gate.open();
-            if (taken) model_.assign(id, index);
+            if (taken) model_.assign(t, index);
         }
         expect(taken, testing::law::no_memory);
         compare(testing::law::assigned_others);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// term: a bond, an angle, a dihedral, an improper: particles that belong together, by their ids; and their fields.
+#pragma once
+
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/list_of.hpp>
+
+#include <array>    // std::array
+#include <compare>  // operator<=>
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::int32_t, std::int64_t
+
+namespace tsubu {
+
+/// Particles that belong together, and of which type the term is; type 0 is none.
+template <std::size_t Order>
+struct term {
+    static_assert(Order >= 2 && Order <= 4, "a term joins two, three or four particles");
+    static constexpr std::size_t order = Order;
+    std::int32_t type = 0;
+    std::array<std::int64_t, Order> ids{};
+
+    friend constexpr auto operator<=>(const term&, const term&) noexcept = default;
+};
+
+/// The terms that a particle keeps: see topology.
+inline constexpr field<"bonds", list_of<term<2>>> bonds{};
+inline constexpr field<"angles", list_of<term<3>>> angles{};
+inline constexpr field<"dihedrals", list_of<term<4>>> dihedrals{};
+inline constexpr field<"impropers", list_of<term<4>>> impropers{};
+
+}  // namespace tsubu

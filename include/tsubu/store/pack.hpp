@@ -23,7 +23,7 @@ namespace tsubu {
 // Words of a particle, the fields in the order of the set; each value begins a word, and what it leaves of its last one
 // is 0:
 //
-//     | id | x | y | z | radius | contacts: how many | elements ... |
+//     | id | x | y | z | radius | contacts: how many | elements ... | shape: 1 or 0 | value if 1 |
 //
 // Bits are copied, never converted (C4): an id past 2^53, a NaN, a denormal number arrive as they left.
 
@@ -47,24 +47,29 @@ struct packer<fields<F...>> {
     template <class Field>
     static constexpr bool is_list = stored<value<Field>>::is_list;
     template <class Field>
+    static constexpr bool is_bonus = stored<value<Field>>::is_bonus;
+    template <class Field>
     [[nodiscard]] static constexpr std::size_t least_words() noexcept {
-        if constexpr (is_list<Field>)
+        if constexpr (is_list<Field> || is_bonus<Field>)
             return 1;
         else
             return words_for(sizeof(value<Field>));
     }
-    /// Of a particle with empty lists.
+    /// Of a particle with empty lists, and no value that only some have.
     static constexpr std::size_t least = (std::size_t{0} + ... + least_words<decltype(F)>());
-    static constexpr bool has_lists = (is_list<decltype(F)> || ...);
+    static constexpr bool varies = ((is_list<decltype(F)> || is_bonus<decltype(F)>) || ...);
 
     template <class Store>
-    [[nodiscard]] static std::size_t list_words(const Store& store, std::size_t i) noexcept {
-        return (std::size_t{0} + ... + list_words_of<decltype(F)>(store, i));
+    [[nodiscard]] static std::size_t further_words(const Store& store, std::size_t i) noexcept {
+        return (std::size_t{0} + ... + further_words_of<decltype(F)>(store, i));
     }
     template <class Field, class Store>
-    [[nodiscard]] static std::size_t list_words_of(const Store& store, std::size_t i) noexcept {
+    [[nodiscard]] static std::size_t further_words_of(const Store& store, std::size_t i) noexcept {
         if constexpr (is_list<Field>)
             return words_for(store[std::remove_cv_t<Field>{}][i].span().size_bytes());
+        else if constexpr (is_bonus<Field>)
+            return store[std::remove_cv_t<Field>{}][i].has_value() ? words_for(sizeof(typename value<Field>::element_type))
+                                                                     : 0;
         else
             return static_cast<void>(store), static_cast<void>(i), 0;
     }
@@ -74,6 +79,10 @@ struct packer<fields<F...>> {
             const auto list = column[i].span();
             *to++ = list.size();
             put_bytes(to, list.data(), list.size_bytes());
+        } else if constexpr (is_bonus<Field>) {
+            const auto bonus = column[i];
+            *to++ = bonus.has_value() ? 1 : 0;
+            if (bonus.has_value()) put_bytes(to, &*bonus, sizeof(*bonus));
         } else {
             put_bytes(to, &column[i], sizeof(column[i]));
         }
@@ -91,6 +100,19 @@ struct packer<fields<F...>> {
             list.resize(static_cast<std::size_t>(count));
             if (count != 0) std::memcpy(static_cast<void*>(list.begin()), from, list.span().size_bytes());
             from += words_for(list.span().size_bytes());
+        } else if constexpr (is_bonus<Field>) {
+            using element = typename value<Field>::element_type;
+            constexpr auto words = words_for(sizeof(element));
+            if (left == 0 || *from > 1 || (*from == 1 && left - 1 < words)) return false;
+            const auto bonus = column[i];
+            if (*from++ == 0) {
+                bonus.reset();
+            } else {
+                element read;
+                std::memcpy(static_cast<void*>(&read), from, sizeof(read));
+                bonus.emplace(read);
+                from += words;
+            }
         } else {
             constexpr auto words = words_for(sizeof(value<Field>));
             if (left < words) return false;
@@ -108,8 +130,8 @@ template <auto... F, class Store>
 [[nodiscard]] std::size_t packed_words(const Store& store, fields<F...>, std::span<const index_t> chosen) {
     using packer = detail::packer<fields<F...>>;
     auto words = packer::least * chosen.size();
-    if constexpr (packer::has_lists)
-        for (const auto i : chosen) words += packer::list_words(store, static_cast<std::size_t>(i));
+    if constexpr (packer::varies)
+        for (const auto i : chosen) words += packer::further_words(store, static_cast<std::size_t>(i));
     return words;
 }
 

@@ -85,7 +85,7 @@ private:
     void swap_with(const particle_reference& other) const noexcept
         requires(!is_const)
     {
-        store_->memory_.swap_rows(i_, other.i_);
+        store_->swap_rows(i_, other.i_);
     }
     template <std::size_t... K>
     [[nodiscard]] record values(std::index_sequence<K...>) const noexcept {
@@ -94,6 +94,7 @@ private:
     template <std::size_t... K>
     void set(const record& values, std::index_sequence<K...>) const noexcept {
         ((store_->memory_.template at<K>(i_) = std::get<K>(values.values)), ...);
+        store_->settle_row(i_);
     }
 
     Store* store_;

@@ -6,6 +6,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/expects.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/column.hpp>
 #include <tsubu/store/concepts.hpp>
 #include <tsubu/store/field.hpp>
@@ -34,12 +35,21 @@ struct stored {
     using type = Value;
     using pool = std::tuple<>;
     static constexpr bool is_list = false;
+    static constexpr bool is_bonus = false;
 };
 template <class Element>
 struct stored<list_of<Element>> {
     using type = list_extent;
     using pool = list_pool<Element>;
     static constexpr bool is_list = true;
+    static constexpr bool is_bonus = false;
+};
+template <class Value>
+struct stored<bonus_of<Value>> {
+    using type = bonus_place;
+    using pool = bonus_pool<Value>;
+    static constexpr bool is_list = false;
+    static constexpr bool is_bonus = true;
 };
 
 }  // namespace detail
@@ -189,10 +199,12 @@ public:
             detail::raise<input_error>("particle_store::swap_remove",
                                        "index " + std::to_string(i) + " of " + std::to_string(owned_) + " owned particles",
                                        "indices go from 0 to owned_count() - 1");
-        release_lists(i);
+        release_row(i);
         const auto last = owned_ - 1;
-        if (i != last) memory_.copy_row(last, i);  // lists go along: where they lie is in the row
-        clear_lists(last);
+        if (i != last) {
+            memory_.copy_row(last, i);  // lists go along: where they lie is in the row
+            settle_row(i);
+        }
         --owned_;
         --size_;
         compact_if_due();
@@ -209,6 +221,8 @@ public:
         TSUBU_EXPECTS(is_permutation(order), "this is not a permutation; give each index once");
         memory_.gather(order.data(), owned_);
         ++*allocation_;
+        if constexpr (has_bonus)
+            for (std::size_t i = 0; i < owned_; ++i) settle_row(i);
         compact_if_due();
     }
     /// Drops what lists have left behind, and lays them in the order of the particles.
@@ -228,6 +242,13 @@ private:
     template <class Store>
     friend class particle_range;
 
+    template <std::size_t K>
+    using kind_of =
+        std::tuple_element_t<K, std::tuple<detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>...>>;
+    template <std::size_t K>
+    using bonus_place_of = typename kind_of<K>::type;
+    static constexpr bool has_bonus = (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_bonus || ...);
+
     template <class Field, class Self>
     [[nodiscard]] static auto column_of(Self& self) noexcept {
         constexpr auto k = fields_type::template place<Field>();
@@ -237,6 +258,9 @@ private:
         constexpr bool is_const = std::is_const_v<Self>;
         if constexpr (detail::stored<value_type>::is_list)
             return list_column<typename value_type::element_type, decltype(place), is_const>(
+                place, self.size_, std::get<k>(self.pools_), until);
+        else if constexpr (detail::stored<value_type>::is_bonus)
+            return bonus_column<typename value_type::element_type, decltype(place), is_const>(
                 place, self.size_, std::get<k>(self.pools_), until);
         else
             return column<std::conditional_t<is_const, const value_type, value_type>, decltype(place)>(place, self.size_,
@@ -263,7 +287,7 @@ private:
         ++*allocation_;
     }
     void shrink(std::size_t count) noexcept {
-        for (auto i = count; i < size_; ++i) release_lists(i);
+        for (auto i = count; i < size_; ++i) release_row(i);
         size_ = count;
     }
     void zero_row(std::size_t i) noexcept {
@@ -274,11 +298,23 @@ private:
         static_assert((has<Given> && ...), "this store has no such field; name it in fields<...>");
         (static_cast<void>(memory_.template at<fields_type::template place<Given>()>(i) = given.value), ...);
     }
-    void release_lists(std::size_t i) noexcept {
+    /// What lies outside the row is given up.
+    void release_row([[maybe_unused]] std::size_t i) noexcept {
         each_list([&]<std::size_t K>(auto& pool) { pool.release(memory_.template at<K>(i)); });
+        each_bonus([&]<std::size_t K>(auto& pool) {
+            pool.reset(memory_.template at<K>(i), [&](index_t owner) -> bonus_place_of<K>& {
+                return memory_.template at<K>(static_cast<std::size_t>(owner));
+            });
+        });
     }
-    void clear_lists(std::size_t i) noexcept {
-        each_list([&]<std::size_t K>(auto&) { memory_.template at<K>(i) = {}; });
+    /// After a row has come here: what lies outside is told where its particle is.
+    void settle_row([[maybe_unused]] std::size_t i) noexcept {
+        each_bonus([&]<std::size_t K>(auto& pool) { pool.settle(memory_.template at<K>(i), static_cast<index_t>(i)); });
+    }
+    void swap_rows(std::size_t i, std::size_t j) noexcept {
+        memory_.swap_rows(i, j);
+        settle_row(i);
+        settle_row(j);
     }
     void compact_if_due() {
         bool due = false;
@@ -302,8 +338,13 @@ private:
     template <class Body>
     void each_list(Body&& body) {
         each_value([&]<std::size_t K>() {
-            if constexpr (!std::is_same_v<std::tuple_element_t<K, pools>, std::tuple<>>)
-                body.template operator()<K>(std::get<K>(pools_));
+            if constexpr (kind_of<K>::is_list) body.template operator()<K>(std::get<K>(pools_));
+        });
+    }
+    template <class Body>
+    void each_bonus(Body&& body) {
+        each_value([&]<std::size_t K>() {
+            if constexpr (kind_of<K>::is_bonus) body.template operator()<K>(std::get<K>(pools_));
         });
     }
     template <class Body>

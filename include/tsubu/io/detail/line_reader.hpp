@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// line_reader: the lines of a text, one at a time, from chunks of a fixed size.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/io/text_source.hpp>
+
+#include <algorithm>    // std::max
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::uint64_t
+#include <cstring>      // std::memchr, std::memmove
+#include <span>         // std::span
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <utility>      // std::move
+#include <vector>       // std::vector
+
+namespace tsubu::detail {
+
+[[nodiscard]] constexpr bool is_blank(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
+[[nodiscard]] constexpr bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+[[nodiscard]] constexpr std::string_view trimmed(std::string_view text) noexcept {
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// Text of a file as messages show it: at most 80 characters, all of them printable.
+[[nodiscard]] inline std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 80;
+    std::string shown = "\"";
+    for (const char c : text.substr(0, longest)) shown += c == '\t' || (c >= ' ' && c <= '~') ? c : '?';
+    return shown += text.size() > longest ? "...\"" : "\"";
+}
+
+/// The buffer holds one chunk. A line that its end cuts moves to its front, and what follows is read behind it:
+///
+///     | (used) ... line \n line \n lin|      ->      |lin|e \n line \n ...
+template <text_source Source>
+class line_reader {
+public:
+    /// @param chunk  characters held at a time; a line may not be longer
+    line_reader(Source source, std::size_t chunk) : source_(std::move(source)), buffer_((std::max)(chunk, std::size_t{1})) {}
+
+    /// Goes to the next line, whatever is in it. @return false at the end.
+    [[nodiscard]] bool next() {
+        for (;;) {
+            const char* const start = buffer_.data() + begin_;
+            const auto held = end_ - begin_;
+            if (held > scanned_) {
+                const auto* const found =
+                    static_cast<const char*>(std::memchr(start + scanned_, '\n', held - scanned_));
+                if (found != nullptr) {
+                    take({start, found});
+                    begin_ = static_cast<std::size_t>(found - buffer_.data()) + 1;
+                    return true;
+                }
+            }
+            scanned_ = held;
+            if (is_at_end_) {
+                if (held == 0) return false;
+                take({start, start + held});
+                begin_ = end_;
+                return true;
+            }
+            refill();
+        }
+    }
+    /// Goes to the next line that is more than blanks and a comment. @return false at the end.
+    [[nodiscard]] bool next_content() {
+        while (next())
+            if (!content_.empty()) return true;
+        content_ = comment_ = line_ = {};
+        return false;
+    }
+    /// The line without comment, and without blanks at its ends.
+    [[nodiscard]] std::string_view content() const noexcept { return content_; }
+    /// What follows the first #, without blanks at its ends.
+    [[nodiscard]] std::string_view comment() const noexcept { return trimmed(comment_); }
+    /// All of the line, without its end.
+    [[nodiscard]] std::string_view line() const noexcept { return line_; }
+    /// Counted from 1.
+    [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+    [[nodiscard]] std::string_view name() const noexcept { return source_.name(); }
+
+    /// Tells what is wrong with this line.
+    [[noreturn, gnu::cold, gnu::noinline]] void fail(const std::string& reason, const char* remedy) const {
+        raise<input_error>("lammps_reader",
+                           std::string(name()) + ", line " + std::to_string(number_) + " " + quoted(line_) + ": " + reason,
+                           remedy);
+    }
+
+private:
+    void take(std::string_view line) noexcept {
+        ++number_;
+        scanned_ = 0;
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        line_ = line;
+        comment_ = {};
+        if (const void* const mark = line.empty() ? nullptr : std::memchr(line.data(), '#', line.size())) {
+            const auto length = static_cast<std::size_t>(static_cast<const char*>(mark) - line.data());
+            comment_ = line.substr(length + 1);
+            line = line.substr(0, length);
+        }
+        content_ = trimmed(line);
+    }
+    void refill() {
+        if (begin_ != 0) {
+            std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+            end_ -= begin_;
+            begin_ = 0;
+        }
+        if (end_ == buffer_.size()) {
+            ++number_;
+            line_ = {buffer_.data(), end_};
+            fail("a line of more than " + std::to_string(buffer_.size()) + " characters", "raise the option chunk");
+        }
+        const auto count = source_.read(std::span(buffer_).subspan(end_));
+        is_at_end_ = count == 0;
+        end_ += count;
+    }
+
+    Source source_;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+    std::size_t scanned_ = 0;  // of what is held, no end of line is in so many
+    bool is_at_end_ = false;
+    std::uint64_t number_ = 0;
+    std::string_view line_;
+    std::string_view content_;
+    std::string_view comment_;
+};
+
+}  // namespace tsubu::detail

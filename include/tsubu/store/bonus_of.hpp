@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// bonus_of: a value that only some particles have: the shape of the few that are no spheres.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/expects.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/store/column.hpp>
+#include <tsubu/store/growth.hpp>
+
+#include <algorithm>    // std::copy_n
+#include <cstddef>      // std::size_t
+#include <span>         // std::span
+#include <type_traits>  // std::conditional_t
+
+namespace tsubu {
+
+/// The type of a field that only some particles have: an index per particle, and a dense array of the values of those that
+/// have one, each with its particle.
+///
+///     inline constexpr tsubu::field<"shape", tsubu::bonus_of<ellipsoid>> shape{};
+///     g[shape][i].emplace({1, 2, 3});
+///     for (auto& e : g[shape].values()) ...
+///
+/// Bytes: 4 per particle, and sizeof(Value) + 4 per value, in blocks of 8192 (C2).
+/// @tparam Value  trivially copyable.
+template <class Value>
+struct bonus_of {
+    static_assert(std::is_trivially_copyable_v<Value>, "bonus_of holds a trivially copyable type");
+    using element_type = Value;
+};
+
+namespace detail {
+
+/// Where the value of a particle lies.
+struct bonus_place {
+    index_t at = absent;
+};
+
+/// Invariant: owner(place(i).at) == i for each particle i that has a value.
+template <class Value>
+class bonus_pool {
+public:
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    [[nodiscard]] Value& value(bonus_place place) noexcept { return values_[static_cast<std::size_t>(place.at)]; }
+    [[nodiscard]] const Value& value(bonus_place place) const noexcept {
+        return values_[static_cast<std::size_t>(place.at)];
+    }
+    [[nodiscard]] std::span<Value> values() noexcept { return {values_.data(), size_}; }
+    [[nodiscard]] std::span<const Value> values() const noexcept { return {values_.data(), size_}; }
+    [[nodiscard]] std::span<const index_t> owners() const noexcept { return {owners_.data(), size_}; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return values_.memory_bytes() + owners_.memory_bytes(); }
+
+    /// Strong guarantee.
+    void emplace(bonus_place& place, index_t owner, const Value& value) {
+        if (place.at == absent) {
+            if (size_ == values_.size()) grow();
+            place.at = static_cast<index_t>(size_++);
+            owners_[static_cast<std::size_t>(place.at)] = owner;
+        }
+        this->value(place) = value;
+    }
+    /// The last value moves into the hole; place_of(i) is the place of particle i.
+    template <class PlaceOf>
+    void reset(bonus_place& place, PlaceOf&& place_of) noexcept {
+        if (place.at == absent) return;
+        const auto hole = static_cast<std::size_t>(place.at);
+        const auto last = --size_;
+        place.at = absent;
+        if (hole == last) return;
+        values_[hole] = values_[last];
+        owners_[hole] = owners_[last];
+        place_of(owners_[hole]).at = static_cast<index_t>(hole);
+    }
+    /// The particle has another index now.
+    void settle(bonus_place place, index_t owner) noexcept {
+        if (place.at != absent) owners_[static_cast<std::size_t>(place.at)] = owner;
+    }
+    void clear() noexcept { size_ = 0; }
+
+private:
+    void grow() {
+        const auto capacity = static_cast<std::size_t>(round_up(size_ + size_ / 2 + 1, bonus_block));
+        buffer<Value> values(capacity, {});
+        buffer<index_t> owners(capacity, {});
+        std::copy_n(values_.data(), size_, values.data());
+        std::copy_n(owners_.data(), size_, owners.data());
+        values_ = std::move(values);
+        owners_ = std::move(owners);
+    }
+
+    buffer<Value> values_;
+    buffer<index_t> owners_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace detail
+
+/// The value of one particle, if it has one: a reference, as std::optional of it.
+template <class Value, class PlaceOf, bool IsConst = false>
+class bonus_reference {
+    using pool = std::conditional_t<IsConst, const detail::bonus_pool<Value>, detail::bonus_pool<Value>>;
+    using value_type = std::conditional_t<IsConst, const Value, Value>;
+
+public:
+    bonus_reference(pool& of, PlaceOf places, std::size_t i) noexcept : pool_(&of), places_(places), i_(i) {}
+
+    [[nodiscard]] bool has_value() const noexcept { return places_.at(i_).at != absent; }
+    explicit operator bool() const noexcept { return has_value(); }
+    [[nodiscard]] value_type& operator*() const noexcept {
+        TSUBU_EXPECTS(has_value(), "this particle has no value of the field; ask has_value() first");
+        return pool_->value(places_.at(i_));
+    }
+    [[nodiscard]] value_type* operator->() const noexcept { return &**this; }
+    /// Gives the particle a value, or another. Strong guarantee.
+    void emplace(const Value& value) const
+        requires(!IsConst)
+    {
+        pool_->emplace(places_.at(i_), static_cast<index_t>(i_), value);
+    }
+    /// Takes it away: the last value moves into its place.
+    void reset() const noexcept
+        requires(!IsConst)
+    {
+        pool_->reset(places_.at(i_),
+                     [&](index_t owner) -> auto& { return places_.at(static_cast<std::size_t>(owner)); });
+    }
+
+private:
+    pool* pool_;
+    PlaceOf places_;
+    std::size_t i_;
+};
+
+/// The values of a field that only some particles have; by particle, or all that there are.
+template <class Value, class Place, bool IsConst = false>
+class bonus_column {
+    using pool = std::conditional_t<IsConst, const detail::bonus_pool<Value>, detail::bonus_pool<Value>>;
+
+public:
+    bonus_column(Place place, std::size_t count, pool& of, lease until) noexcept
+        : place_(place), count_(count), pool_(&of), until_(until) {}
+
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    [[nodiscard]] bonus_reference<Value, Place, IsConst> operator[](std::size_t i) const noexcept {
+        until_.check();
+        TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
+        return {*pool_, place_, first_ + i};
+    }
+    /// The values that there are, in no order; owners()[k] is the particle of values()[k].
+    [[nodiscard]] auto values() const noexcept { return pool_->values(); }
+    [[nodiscard]] std::span<const index_t> owners() const noexcept { return pool_->owners(); }
+    [[nodiscard]] bonus_column part(std::size_t first, std::size_t count) const noexcept {
+        TSUBU_EXPECTS(first + count <= count_, "a part that reaches beyond the column; ask size()");
+        auto some = *this;
+        some.first_ += first;
+        some.count_ = count;
+        return some;
+    }
+
+private:
+    Place place_;
+    std::size_t first_ = 0;
+    std::size_t count_;
+    pool* pool_;
+    [[no_unique_address]] lease until_;
+};
+
+}  // namespace tsubu

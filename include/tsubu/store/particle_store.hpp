@@ -294,7 +294,7 @@ private:
         each_value([&]<std::size_t K>() { memory_.template at<K>(i) = {}; });
     }
     template <class... Given>
-    void set(std::size_t i, const field_value<Given>&... given) {
+    void set([[maybe_unused]] std::size_t i, const field_value<Given>&... given) {
         static_assert((has<Given> && ...), "this store has no such field; name it in fields<...>");
         (static_cast<void>(memory_.template at<fields_type::template place<Given>()>(i) = given.value), ...);
     }

@@ -54,12 +54,13 @@ public:
 
     /// Strong guarantee.
     void emplace(bonus_place& place, index_t owner, const Value& value) {
+        const auto kept = value;  // it may lie in this pool
         if (place.at == absent) {
             if (size_ == values_.size()) grow();
             place.at = static_cast<index_t>(size_++);
             owners_[static_cast<std::size_t>(place.at)] = owner;
         }
-        this->value(place) = value;
+        this->value(place) = kept;
     }
     /// The last value moves into the hole; place_of(i) is the place of particle i.
     template <class PlaceOf>

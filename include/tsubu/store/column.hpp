@@ -10,7 +10,7 @@
 #include <cstdint>      // std::uint64_t
 #include <iterator>     // std::random_access_iterator_tag
 #include <span>         // std::span
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::is_same_v
 #include <utility>      // std::exchange
 
 namespace tsubu {
@@ -69,7 +69,7 @@ struct blocked_place {
 /// Of soa it is a contiguous range: it converts to std::span, and so to points.
 template <class Value, class Place>
 class column {
-    static constexpr bool is_contiguous = requires(const Place& place) { place.start + 0 == static_cast<Value*>(nullptr); };
+    static constexpr bool is_contiguous = std::is_same_v<Place, contiguous_place<Value>>;
 
 public:
     using value_type = std::remove_const_t<Value>;

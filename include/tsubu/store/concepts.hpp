@@ -17,10 +17,14 @@
 namespace tsubu {
 
 /// The memory of a layout for fixed types: Layout::memory<Values...>.
-///  1. at<K>(i) is where value K of row i lies, for i < capacity(); distinct for distinct K and i;
-///  2. place<K>() finds the same: place<K>().at(i);
-///  3. a copy of row i is a copy of each of its values, and nothing else;
-///  4. bytes_of(n) is what n rows take, and at most the sum of their sizes, 1 % and a block more.
+///  1. at<K>(i) is where value K of row i lies, for i < capacity(): aligned, and apart from all others;
+///  2. place<K>() finds the same: place<K>().at(i), and place<K>().from(f).at(i - f);
+///  3. copy_row and swap_rows copy or swap each value of a row, and change no other row;
+///  4. gather(order, n) makes row i what row order[i] was, for i < n;
+///  5. reallocate(n, kept) makes capacity() at least n and keeps rows 0 .. kept - 1, where kept <= n;
+///  6. memory_bytes() is at most capacity() times the sum of the sizes of the values, rounded up to their strictest
+///     alignment, 1 % and a block more;
+///  7. a copy is independent of its source.
 template <class Layout>
 concept particle_layout = requires(typename Layout::template memory<int, double>& rows,
                                    const typename Layout::template memory<int, double>& read, std::size_t n) {

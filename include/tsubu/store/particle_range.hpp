@@ -78,6 +78,12 @@ public:
     {
         a.swap_with(b);
     }
+    /// For named references, where std::swap would be the better match, and swap nothing but where they lead.
+    friend void swap(particle_reference& a, particle_reference& b) noexcept
+        requires(!is_const)
+    {
+        a.swap_with(b);
+    }
 
 private:
     using indices = std::make_index_sequence<store_type::fields_type::count>;
@@ -85,6 +91,7 @@ private:
     void swap_with(const particle_reference& other) const noexcept
         requires(!is_const)
     {
+        TSUBU_EXPECTS(store_ == other.store_, "particles of two stores do not swap; pack one and unpack it there");
         store_->swap_rows(i_, other.i_);
     }
     template <std::size_t... K>

@@ -22,7 +22,7 @@
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <tuple>        // std::tuple
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::is_trivially_copyable_v
 #include <utility>      // std::exchange, std::index_sequence, std::swap
 #include <vector>       // std::vector
 
@@ -79,6 +79,10 @@ class particle_store<fields<F...>, Layout, Growth> {
         typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
     using pools = std::tuple<typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::pool...>;
     static_assert(particle_layout<Layout> && growth_policy<Growth>);
+    static_assert((std::is_trivially_copyable_v<
+                       typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type> &&
+                   ...),
+                  "a field holds a trivially copyable type, or list_of one");
 
 public:
     using fields_type = fields<F...>;
@@ -161,6 +165,7 @@ public:
 
     /// Room for n particles, owned and ghost, in whole blocks. Strong guarantee. @throws limit_error from 2^31 on.
     void reserve(std::size_t n) {
+        if (n > max_index_count) refuse_count(n);
         if (n > capacity()) reallocate(round_up(n));
     }
     /// A new owned particle, with the values given and zeros for the others; its index.
@@ -190,6 +195,7 @@ public:
     void clear() noexcept {
         shrink(0);
         owned_ = 0;
+        each_list([]<std::size_t K>(auto& pool) { pool.clear(); });
     }
     /// Removes an owned particle; the last one moves into its place.
     /// @throws input_error if there are ghosts, or no such particle.
@@ -227,12 +233,10 @@ public:
     }
     /// Drops what lists have left behind, and lays them in the order of the particles.
     void compact() {
-        std::size_t place = 0;
         each_list([&]<std::size_t K>(auto& pool) {
             pool.compact([&](auto&& visit) {
                 for (std::size_t i = 0; i < size_; ++i) visit(memory_.template at<K>(i));
             });
-            ++place;
         });
     }
 
@@ -271,11 +275,15 @@ private:
             detail::raise<input_error>(where, std::to_string(ghost_count()) + " ghosts stand after the owned particles",
                                        "call clear_ghosts() before owned particles come, go or change places");
     }
+    [[noreturn]] void refuse_count(std::size_t count) const {
+        detail::raise<limit_error>("particle_store",
+                                   std::to_string(count) + " particles where " + std::to_string(size_) + " are",
+                                   "spread them over more ranks: one holds fewer than 2^31");
+    }
     std::size_t add(std::size_t count) {
+        if (count > max_index_count - size_) refuse_count(count);
         const auto needed = size_ + count;
-        if (needed > max_index_count)
-            detail::raise<limit_error>("particle_store", std::to_string(needed) + " particles on one rank",
-                                       "spread them over more ranks: an index has 32 bits");
+        compact_if_due();  // ghosts that come and go with lists leave garbage
         if (needed > capacity()) reallocate(growth_.next(capacity(), needed));
         const auto first = size_;
         size_ = needed;

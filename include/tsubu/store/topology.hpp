@@ -60,7 +60,7 @@ struct topology {
         if (one.type == 0) return false;
         if constexpr (Newton::keeps_once) return true;
         if constexpr (order == 2)
-            return particle < other_end(one, particle);
+            return particle <= other_end(one, particle);  // equal: a bond to itself, where that is allowed
         else
             return one.ids[main_one] == particle;
     }

@@ -56,4 +56,13 @@ struct scalar_of_named<Store, Name> {
 template <class Store, fixed_string Name>
 using scalar_named = typename scalar_of_named<Store, Name>::type;
 
+/// The value of a particle, or another where the store has no such field.
+template <fixed_string Name, class Store, class Value>
+[[nodiscard]] auto value_at(const Store& store, std::size_t i, Value otherwise) noexcept {
+    if constexpr (has_named<Store, Name>)
+        return static_cast<void>(otherwise), store[field_named<Store, Name>{}][i];
+    else
+        return static_cast<void>(store), static_cast<void>(i), otherwise;
+}
+
 }  // namespace tsubu::detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which sections a store has fields for, and which atom style.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/io/atom_style.hpp>
+#include <tsubu/io/detail/field_named.hpp>
+#include <tsubu/io/lammps_options.hpp>
+#include <tsubu/store/term.hpp>
+
+#include <array>        // std::array
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int32_t
+#include <limits>       // std::numeric_limits
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+
+namespace tsubu::detail {
+
+inline constexpr std::array<std::string_view, 6> section_names{"Atoms",  "Velocities", "Bonds",
+                                                               "Angles", "Dihedrals",  "Impropers"};
+inline constexpr std::array<lammps_section, 6> all_sections{
+    lammps_section::atoms,  lammps_section::velocities, lammps_section::bonds,
+    lammps_section::angles, lammps_section::dihedrals,  lammps_section::impropers};
+
+/// Calls body.operator()<Field>() for the field of terms that the section lists, if the store has it.
+/// @return whether it has.
+template <class Store, class Body>
+bool with_terms(lammps_section section, Body&& body) {
+    bool found = false;
+    const auto one = [&]<auto Field>(lammps_section of) {
+        if constexpr (Store::template has<decltype(Field)>)
+            if (section == of) {
+                found = true;
+                body.template operator()<Field>();
+            }
+    };
+    one.template operator()<bonds>(lammps_section::bonds);
+    one.template operator()<angles>(lammps_section::angles);
+    one.template operator()<dihedrals>(lammps_section::dihedrals);
+    one.template operator()<impropers>(lammps_section::impropers);
+    return found;
+}
+
+template <class Store>
+[[nodiscard]] bool has_section(lammps_section section) {
+    if (section == lammps_section::atoms) return true;
+    if (section == lammps_section::velocities)
+        return has_named<Store, "velocity"> || has_named<Store, "angular_velocity">;
+    return with_terms<Store>(section, []<auto>() {});
+}
+
+template <class Store>
+[[nodiscard]] constexpr atom_style least_style() noexcept {
+    if (has_named<Store, "charge">) return atom_style::full;
+    if (has_named<Store, "dihedrals"> || has_named<Store, "impropers">) return atom_style::molecular;
+    if (has_named<Store, "angles">) return atom_style::angle;
+    if (has_named<Store, "bonds"> || has_named<Store, "molecule">) return atom_style::bond;
+    return has_named<Store, "radius"> ? atom_style::sphere : atom_style::atomic;
+}
+
+/// @throws input_error if the store lacks what rows of this style tell.
+template <class Store>
+void check_style(atom_style style) {
+    const auto lack = [&](const char* field) {
+        raise<input_error>("lammps_writer",
+                           "atom style " + std::string(name_of(style)) + " tells a " + field + ", which the store lacks",
+                           "choose another style, or give the store the field");
+    };
+    if (has_charge(style) && !has_named<Store, "charge">) lack("charge");
+    if (!is_sphere(style)) return;
+    if (!has_named<Store, "radius">) lack("radius");
+    if (!has_named<Store, "mass"> && !has_named<Store, "density">) lack("mass or density");
+}
+
+/// The type of a particle: its species, or 1. @throws input_error unless it is from 1 to 2^31 - 1.
+template <class Store>
+[[nodiscard]] std::int32_t type_at(const Store& store, std::size_t i) {
+    const auto type = value_at<"species">(store, i, std::int32_t{1});
+    if (type < 1 || type > (std::numeric_limits<std::int32_t>::max)()) [[unlikely]]
+        raise<input_error>("lammps_writer", "the species " + std::to_string(type), "types of LAMMPS begin with 1");
+    return static_cast<std::int32_t>(type);
+}
+
+}  // namespace tsubu::detail

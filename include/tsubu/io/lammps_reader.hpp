@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// lammps_reader: particles from a LAMMPS data file.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/id/id_map.hpp>
+#include <tsubu/io/atom_style.hpp>
+#include <tsubu/io/detail/atom_row.hpp>
+#include <tsubu/io/detail/field_named.hpp>
+#include <tsubu/io/detail/header_reader.hpp>
+#include <tsubu/io/detail/line_reader.hpp>
+#include <tsubu/io/detail/mass_table.hpp>
+#include <tsubu/io/detail/row.hpp>
+#include <tsubu/io/detail/term_row.hpp>
+#include <tsubu/io/lammps_header.hpp>
+#include <tsubu/io/lammps_options.hpp>
+#include <tsubu/io/text_source.hpp>
+#include <tsubu/store/particle_store.hpp>
+#include <tsubu/store/term.hpp>
+#include <tsubu/store/topology.hpp>
+
+#include <algorithm>    // std::find
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int32_t, std::int64_t
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <type_traits>  // std::remove_cv_t
+#include <utility>      // std::move
+#include <vector>       // std::vector
+
+namespace tsubu {
+
+/// Keeps every particle: what a program of one rank reads.
+struct every_particle {
+    template <class Position>
+    [[nodiscard]] constexpr bool operator()(const Position&) const noexcept {
+        return true;
+    }
+};
+
+/// What is in this LAMMPS data file? The header at once, the particles on request; a chunk is held at a time.
+///
+///     tsubu::lammps_reader file(tsubu::file_source("grains.lmp"));
+///     const auto box = file.header().box({true, true, false});
+///     const auto mine = tsubu::brick_decomposition(box, ranks).subdomain(rank);
+///     file.read(grains, [&](const auto& x) { return mine.owns_extended(box.wrap(x).position); });
+///
+/// Which columns and sections are stored follows from the fields of the store: id, position, species, and by their names
+/// mass, radius, density, charge, molecule, image, velocity, angular_velocity, and the lists bonds, angles, dihedrals,
+/// impropers. A field that the style of the file has not is an error, never 0. All of the file is checked, stored or not.
+///
+/// A rank that keeps a part cannot tell an id that nobody has from one that another rank keeps; but it tells ids of its
+/// own that are repeated or missing, and the number of rows, so that an unknown id is missed by no file: where all ranks
+/// together find each of n ids once in n rows, no row is left for another. Terms: compare the sum of topology::count over
+/// all ranks with header().
+///
+/// @tparam Source  a text_source.
+///
+/// Invalidates: read ends what it read from: a second read is an error.
+/// Source: C3, C5 to C11.
+template <text_source Source>
+class lammps_reader {
+    using lines_type = detail::line_reader<Source>;
+    using row_type = detail::row<lines_type>;
+
+public:
+    /// Reads the header.
+    /// @throws input_error with file, line number, line and reason.
+    explicit lammps_reader(Source source, const lammps_read_options& with = {})
+        : with_(with), lines_(std::move(source), with.chunk) {
+        is_at_section_ = detail::read_header(lines_, header_, with_.unknown);
+    }
+
+    /// What stands at the top; the masses after read.
+    [[nodiscard]] const lammps_header& header() const noexcept { return header_; }
+    /// The style of the section Atoms; after read. atomic if there is no such section.
+    [[nodiscard]] atom_style style() const noexcept { return style_; }
+    /// The names of sections that were skipped.
+    [[nodiscard]] const std::vector<std::string>& skipped() const noexcept { return skipped_; }
+
+    /// Reads the particles that keep(position) accepts, and the terms that they keep.
+    ///
+    /// @param store   empty; it owns what is kept, in the order of the file
+    /// @param keep    keep(position) of the store's type of position, or vec<3>, as it stands in the file
+    /// @tparam Newton  newton_on or newton_off: which particles keep a term
+    /// @throws input_error with file, line number, line and reason; if the store is not empty; if the file lacks what
+    ///         the store wants; at a second call.
+    /// Strong guarantee: the store is as before.
+    template <class Newton = newton_on, class Store, class Keep = every_particle>
+    void read(Store& store, Keep&& keep = {});
+
+private:
+    template <class Store>
+    struct reading {
+        Store particles;
+        id_map<> where{};
+        std::vector<std::int32_t> types{};  // where masses are to follow from them
+        bool keeps_all = true;  // no particle was left to others: every id of the file is known here
+        bool has_atoms = false;
+        bool has_velocities = false;
+    };
+
+    template <class Newton, class Store, class Keep>
+    void read_section(reading<Store>& now, Keep& keep);
+    template <class Store, class Keep>
+    void read_atoms(reading<Store>& now, Keep& keep);
+    template <class Store>
+    void read_velocities(reading<Store>& now);
+    template <class Newton, auto Field, class Store>
+    void read_terms(reading<Store>& now, const char* name, lammps_count count);
+    void read_masses();
+    template <class Store>
+    void finish(reading<Store>& now);
+    void skip_section();
+
+    // Goes through the rows of a section, calls each(row), and stops at the first line of the next section.
+    template <class Each>
+    void rows(const char* name, std::int64_t count, Each&& each) {
+        std::int64_t read = 0;
+        while ((is_at_section_ = lines_.next_content())) {
+            row_type next(lines_);
+            if (next.is_at_word()) break;
+            if (read == count)
+                next.fail("row " + std::to_string(read + 1) + " of " + name + ", but the header says " +
+                              std::to_string(count),
+                          "correct the header");
+            each(next);
+            ++read;
+        }
+        if (read != count)
+            lines_.fail(std::string(name) + " ends after " + std::to_string(read) + " rows, but the header says " +
+                            std::to_string(count),
+                        "is the file whole?");
+    }
+    void choose_style(std::string_view hint);
+    // The place of a particle of this rank; absent if another has it. Fails if nobody has.
+    template <class Store>
+    [[nodiscard]] index_t find(const reading<Store>& now, std::int64_t name, const row_type& row) const {
+        const auto i = now.where.find(name);
+        if (i == absent && now.keeps_all) [[unlikely]]
+            row.fail("no particle has the id " + std::to_string(name), "correct the id, or add the particle to Atoms");
+        return i;
+    }
+
+    lammps_read_options with_;
+    lines_type lines_;
+    lammps_header header_;
+    atom_style style_ = atom_style::atomic;
+    std::vector<std::string> skipped_;
+    std::vector<std::string> met_;  // sections so far
+    bool is_at_section_ = false;
+    bool was_read_ = false;
+};
+
+template <text_source Source>
+template <class Newton, class Store, class Keep>
+void lammps_reader<Source>::read(Store& store, Keep&& keep) {
+    static_assert(detail::has_named<Store, "id">, "particles are found by their ids: give the store the field tsubu::id");
+    if (store.size() != 0)
+        detail::raise<input_error>("lammps_reader::read", "the store has " + std::to_string(store.size()) + " particles",
+                                   "read into an empty one");
+    if (was_read_)
+        detail::raise<input_error>("lammps_reader::read", std::string(lines_.name()) + " was read before",
+                                   "make a new reader");
+    was_read_ = true;
+    reading<Store> now{store};
+    while (is_at_section_) read_section<Newton>(now, keep);
+    finish(now);
+    now.particles.compact();  // lists that grew have left gaps
+    store = std::move(now.particles);
+}
+
+template <text_source Source>
+template <class Newton, class Store, class Keep>
+void lammps_reader<Source>::read_section(reading<Store>& now, Keep& keep) {
+    const auto name = detail::with_single_blanks(lines_.content());
+    if (std::find(met_.begin(), met_.end(), name) != met_.end()) lines_.fail("a second section " + name, "join them");
+    met_.push_back(name);
+    const bool needs_atoms = name == "Velocities" || name == "Bonds" || name == "Angles" || name == "Dihedrals" ||
+                             name == "Impropers";
+    if (needs_atoms && !now.has_atoms) lines_.fail(name + " before Atoms", "put Atoms in front");
+    if (name == "Masses")
+        read_masses();
+    else if (name == "Atoms")
+        read_atoms(now, keep);
+    else if (name == "Velocities")
+        read_velocities(now);
+    else if (name == "Bonds")
+        read_terms<Newton, bonds>(now, "Bonds", header_.bonds);
+    else if (name == "Angles")
+        read_terms<Newton, angles>(now, "Angles", header_.angles);
+    else if (name == "Dihedrals")
+        read_terms<Newton, dihedrals>(now, "Dihedrals", header_.dihedrals);
+    else if (name == "Impropers")
+        read_terms<Newton, impropers>(now, "Impropers", header_.impropers);
+    else
+        skip_section();
+}
+
+template <text_source Source>
+template <class Store, class Keep>
+void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
+    choose_style(lines_.comment());
+    if (const auto lacking = detail::lacking_in<Store>(style_); !lacking.empty())
+        lines_.fail("atom style " + std::string(name_of(style_)) + " has no " + std::string(lacking) +
+                        ", which the store has",
+                    "read a file that has it, or a store without");
+    using real = detail::scalar_named<Store, "position">;
+    const auto columns = atom_columns(style_);
+    std::size_t given = 0;
+    rows("Atoms", header_.atoms.rows, [&](row_type& row) {
+        if (given == 0) given = detail::count_words(row.rest());
+        const auto atom = detail::read_atom<real>(row, style_, given == columns + 3, header_.atoms.types);
+        auto& particles = now.particles;
+        if constexpr (detail::has_named<Store, "position">) {
+            detail::value_named<Store, "position"> at{};
+            detail::set_components(at, atom.at);
+            if (!keep(at)) {
+                now.keeps_all = false;
+                return;
+            }
+        } else if (!keep(atom.at)) {
+            now.keeps_all = false;
+            return;
+        }
+        if (now.where.contains(atom.name)) [[unlikely]]
+            row.fail("a second particle with the id " + std::to_string(atom.name), "give each particle an id of its own");
+        now.where.assign(atom.name, static_cast<index_t>(particles.size()));
+        detail::append_atom(particles, atom, row);
+        if constexpr (detail::has_named<Store, "mass">)
+            if (!is_sphere(style_)) now.types.push_back(atom.type);
+    });
+    now.has_atoms = true;
+}
+
+template <text_source Source>
+template <class Store>
+void lammps_reader<Source>::read_velocities(reading<Store>& now) {
+    using real = detail::scalar_named<Store, "velocity">;
+    using angular = detail::scalar_named<Store, "angular_velocity">;
+    std::vector<bool> seen(now.particles.size());
+    rows("Velocities", header_.atoms.rows, [&](row_type& row) {
+        const auto name = row.template next_from<std::int64_t>(1, "the id");
+        vec<3, real> v{};
+        for (auto& one : v) one = row.template next<real>("a velocity");
+        vec<3, angular> w{};
+        if (is_sphere(style_))
+            for (auto& one : w) one = row.template next<angular>("an angular velocity");
+        row.expect_end();
+        const auto at = find(now, name, row);
+        if (at == absent) return;
+        const auto i = static_cast<std::size_t>(at);
+        if (seen[i]) [[unlikely]]
+            row.fail("a second velocity of id " + std::to_string(name), "leave one of them");
+        seen[i] = true;
+        if constexpr (detail::has_named<Store, "velocity">)
+            detail::set_components(now.particles[detail::field_named<Store, "velocity">{}][i], v);
+        if constexpr (detail::has_named<Store, "angular_velocity">)
+            detail::set_components(now.particles[detail::field_named<Store, "angular_velocity">{}][i], w);
+    });
+    if (const auto missed = std::find(seen.begin(), seen.end(), false); missed != seen.end()) {
+        const auto i = static_cast<std::size_t>(missed - seen.begin());
+        lines_.fail("Velocities, which end here, have none of id " +
+                        std::to_string(now.particles[detail::field_named<Store, "id">{}][i]),
+                    "give each particle one");
+    }
+    now.has_velocities = true;
+}
+
+template <text_source Source>
+template <class Newton, auto Field, class Store>
+void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, lammps_count count) {
+    using field_type = std::remove_cv_t<decltype(Field)>;
+    constexpr auto order = field_type::value_type::element_type::order;
+    rows(name, count.rows, [&](row_type& row) {
+        const auto one = detail::read_term<order>(row, count.types, with_.allows_repeats);
+        if (now.keeps_all)
+            for (const auto particle : one.ids) static_cast<void>(find(now, particle, row));
+        if constexpr (Store::template has<field_type>)
+            topology<Field, Newton>::insert(now.particles, now.where, one, with_.allows_repeats);
+    });
+}
+
+template <text_source Source>
+void lammps_reader<Source>::read_masses() {
+    detail::mass_table table;
+    rows("Masses", header_.atoms.types, [&](row_type& row) { table.add(row, header_.atoms.types); });
+    header_.masses = table.by_type();
+}
+
+template <text_source Source>
+void lammps_reader<Source>::skip_section() {
+    if (with_.unknown == unknown_lines::refuse)
+        lines_.fail("this is no section that tsubu reads", "skip unknown sections by option, or remove it");
+    skipped_.push_back(detail::with_single_blanks(lines_.content()));
+    while ((is_at_section_ = lines_.next_content()))
+        if (detail::is_letter(lines_.content().front())) return;
+}
+
+template <text_source Source>
+void lammps_reader<Source>::choose_style(std::string_view hint) {
+    const auto hinted = atom_style_named(hint);
+    if (with_.style && !hint.empty() && hinted != with_.style)
+        lines_.fail("this is not atom style " + std::string(name_of(*with_.style)), "ask for the style of the file");
+    if (!with_.style && !hinted)
+        lines_.fail(hint.empty() ? "the atom style is not told" : "this is no atom style that tsubu reads",
+                    "name the style by option, or in the file: Atoms # atomic");
+    style_ = with_.style ? *with_.style : *hinted;
+}
+
+template <text_source Source>
+template <class Store>
+void lammps_reader<Source>::finish(reading<Store>& now) {
+    const auto expect = [&](const char* name, std::int64_t rows, const char* kind) {
+        if (rows != 0 && std::find(met_.begin(), met_.end(), name) == met_.end())
+            lines_.fail("the header says " + std::to_string(rows) + kind + ", but there is no section " + name,
+                        "is the file whole?");
+    };
+    expect("Atoms", header_.atoms.rows, " atoms");
+    expect("Bonds", header_.bonds.rows, " bonds");
+    expect("Angles", header_.angles.rows, " angles");
+    expect("Dihedrals", header_.dihedrals.rows, " dihedrals");
+    expect("Impropers", header_.impropers.rows, " impropers");
+    constexpr bool wants_velocities =
+        detail::has_named<Store, "velocity"> || detail::has_named<Store, "angular_velocity">;
+    if (wants_velocities && !now.has_velocities && header_.atoms.rows != 0 && !with_.velocities_may_lack)
+        lines_.fail("there is no section Velocities, but the store has them",
+                    "leave them 0 by the option velocities_may_lack");
+    if constexpr (detail::has_named<Store, "mass">) {
+        if (is_sphere(style_) || header_.atoms.rows == 0) return;
+        if (header_.masses.empty())
+            lines_.fail("there is no section Masses, but the store has masses", "give a mass for each type");
+        using value = detail::value_named<Store, "mass">;
+        const auto masses = now.particles[detail::field_named<Store, "mass">{}];
+        for (std::size_t i = 0; i < masses.size(); ++i)
+            masses[i] = static_cast<value>(header_.masses[static_cast<std::size_t>(now.types[i] - 1)]);
+    }
+}
+
+}  // namespace tsubu

@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// write_restart and read_restart: the particles of a run, bit for bit, to go on with later.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/expects.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/io/atomic_file.hpp>
+#include <tsubu/io/byte_source.hpp>
+#include <tsubu/io/checksum.hpp>
+#include <tsubu/io/detail/restart_format.hpp>
+#include <tsubu/io/restart_state.hpp>
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/growth.hpp>
+#include <tsubu/store/pack.hpp>
+#include <tsubu/store/particle_store.hpp>
+
+#include <algorithm>    // std::min
+#include <array>        // std::array
+#include <cstddef>      // std::byte, std::size_t
+#include <cstdint>      // std::uint64_t
+#include <new>          // std::bad_alloc
+#include <numeric>      // std::iota
+#include <span>         // std::as_bytes, std::span
+#include <string>       // std::string, std::to_string
+#include <type_traits>  // std::is_same_v, std::remove_cv_t
+#include <utility>      // std::move
+#include <vector>       // std::vector
+
+namespace tsubu {
+namespace detail {
+
+/// Calls body(indices) for the owned particles of a store, some at a time.
+template <class Store, class Body>
+void each_block_of(const Store& store, std::size_t particles_per_block, Body&& body) {
+    std::vector<index_t> chosen;
+    for (std::size_t first = 0; first < store.owned_count(); first += chosen.size()) {
+        chosen.resize((std::min)(particles_per_block, store.owned_count() - first));
+        std::iota(chosen.begin(), chosen.end(), static_cast<index_t>(first));
+        body(std::span<const index_t>(chosen));
+    }
+}
+
+}  // namespace detail
+
+/// What a restart file of several ranks will look like; the same on all ranks, who then write their parts in any order.
+///
+///     // every rank:
+///     const auto mine = tsubu::restart_part_of(g, set);              // then gather: parts, in the order of ranks
+///     tsubu::restart_plan plan(set, state, parts);
+///     // rank 0:                                                     // then tell file.temporary_path() to all
+///     tsubu::atomic_file file("run.restart");
+///     plan.write_header(file.writer());
+///     // every rank:
+///     tsubu::file_writer part(temporary_path);
+///     plan.write_part(part, rank, g, set);
+///     part.close();
+///     // rank 0, when all have:
+///     plan.commit(file);
+///
+/// What is equal on all ranks: the set, the state, the parts. Threads: any number of readers.
+class restart_plan {
+public:
+    /// @param parts  what restart_part_of says, of rank 0, 1, ...
+    template <auto... F>
+    restart_plan(fields<F...> set, const restart_state& state, std::vector<restart_part> parts,
+                 std::size_t particles_per_block = store_block) {
+        header_.state = state;
+        header_.particles_per_block = particles_per_block;
+        header_.fields = detail::restart_fields(set);
+        header_.parts = std::move(parts);
+        words_ = detail::encode(header_);
+    }
+    /// Of the whole file.
+    [[nodiscard]] std::uint64_t bytes() const noexcept { return header_.bytes; }
+    /// Where the part of a rank begins.
+    [[nodiscard]] std::uint64_t offset(std::size_t rank) const noexcept {
+        auto at = 8 * header_.words;
+        for (std::size_t k = 0; k < rank; ++k) at += header_.parts[k].bytes;
+        return at;
+    }
+    /// @throws file_error
+    void write_header(file_writer& file) const { file.write_at(0, std::as_bytes(std::span(words_))); }
+    /// Writes the owned particles of a rank into its part. Memory: one block. @throws file_error; input_error if they are
+    /// not those that the plan was made for.
+    template <auto... F, class Store>
+    void write_part(file_writer& file, std::size_t rank, const Store& store, fields<F...> set) const {
+        if (rank >= header_.parts.size() || header_.parts[rank].particles != store.owned_count() ||
+            detail::restart_fields(set) != header_.fields)
+            refuse(rank);
+        const auto begin = offset(rank);
+        auto at = begin;
+        std::uint64_t block = 0;
+        buffer<std::uint64_t> words;
+        detail::each_block_of(store, particles_per_block(), [&](std::span<const index_t> chosen) {
+            constexpr auto head = detail::restart_block_header;
+            const auto body = packed_words(store, set, chosen);
+            if (head + body > words.size()) words = buffer<std::uint64_t>(head + body, {});
+            const std::span<std::uint64_t> all(words.data(), head + body);
+            pack(store, set, chosen, all.subspan(head));
+            all[0] = detail::restart_block_magic;
+            all[1] = rank;
+            all[2] = block++;
+            all[3] = chosen.size();
+            all[4] = body;
+            all[5] = crc64_of(all.subspan(head));
+            all[6] = header_.checksum;
+            all[7] = crc64_of(all.first(head - 1));
+            if (at - begin + all.size_bytes() > header_.parts[rank].bytes) refuse(rank);  // never over another's part
+            file.write_at(at, std::as_bytes(all));
+            at += all.size_bytes();
+        });
+        if (at - begin != header_.parts[rank].bytes) refuse(rank);
+    }
+    /// Gives the file its name, if it is as long as it must be. @throws file_error, input_error
+    void commit(atomic_file& file) const {
+        if (file.writer().size() != bytes())
+            detail::raise<input_error>("restart_plan::commit",
+                                       file.path() + " has " + std::to_string(file.writer().size()) + " bytes of " +
+                                           std::to_string(bytes()),
+                                       "write the parts of all ranks first");
+        file.commit();
+    }
+
+private:
+    [[nodiscard]] std::size_t particles_per_block() const noexcept {
+        return static_cast<std::size_t>(header_.particles_per_block);
+    }
+    [[noreturn]] static void refuse(std::size_t rank) {
+        detail::raise<input_error>("restart_plan::write_part",
+                                   "the particles or fields of rank " + std::to_string(rank) + " are not those of the plan",
+                                   "plan and write without a change of the store in between");
+    }
+
+    detail::restart_header header_;
+    std::vector<std::uint64_t> words_;
+};
+
+/// How large the part of this rank in a restart file is: of its owned particles. O(1) words; O(n) if there are lists.
+/// @throws input_error if there are no particles per block.
+template <auto... F, class Store>
+[[nodiscard]] restart_part restart_part_of(const Store& store, fields<F...> set,
+                                           std::size_t particles_per_block = store_block) {
+    static_assert(sizeof...(F) > 0, "a restart file needs a field");
+    if (particles_per_block == 0) detail::raise<input_error>("restart_part_of", "blocks of no particle", "give at least 1");
+    restart_part part;
+    part.particles = store.owned_count();
+    detail::each_block_of(store, particles_per_block, [&](std::span<const index_t> chosen) {
+        ++part.blocks;
+        part.bytes += 8 * (detail::restart_block_header + packed_words(store, set, chosen));
+    });
+    return part;
+}
+
+/// Writes these fields of the owned particles of one rank; for several ranks see restart_plan.
+///
+///     using set = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>>;
+///     tsubu::write_restart("run.restart", g, set{}, {.step = 1000, .box = tsubu::restart_box(box)});
+///
+/// Memory: one block. The file is there whole or not at all: see atomic_file.
+/// @throws file_error if the folder does not exist, the disk is full, ...; nothing is left then.
+template <auto... F, class Store>
+void write_restart(const std::string& path, const Store& store, fields<F...> set, const restart_state& state = {}) {
+    const restart_plan plan(set, state, {restart_part_of(store, set)});
+    atomic_file file(path);
+    plan.write_header(file.writer());
+    plan.write_part(file.writer(), 0, store, set);
+    plan.commit(file);
+}
+
+/// For restart_reader::read: every particle is wanted.
+struct keep_all {
+    template <class Particle>
+    [[nodiscard]] constexpr bool operator()(const Particle&) const noexcept {
+        return true;
+    }
+};
+/// For restart_reader::read: every ranks-th block, from block `rank` on.
+struct restart_share {
+    std::uint64_t rank = 0;
+    std::uint64_t ranks = 1;
+};
+
+/// What is in this restart file?
+///
+///     tsubu::restart_reader file("run.restart");
+///     const auto box = file.state().box.as<tsubu::domain<3>>();
+///     file.read(g, set{}, [&](const auto& particle) { return mine.contains(particle[tsubu::position<3>]); });
+///
+/// Any number of ranks may read, whatever number has written: each keeps what is its own, or takes a share of the blocks
+/// and migrates after. A file that is damaged, not whole, longer, foreign, of another version or byte order is refused,
+/// with its name, the place and the reason.
+///
+/// @tparam Source  a byte_source.
+/// Threads: any number of readers, into different stores.
+template <byte_source Source = file_source>
+class restart_reader {
+public:
+    /// Reads and checks the header. @throws file_error; input_error if it is not as it must be.
+    explicit restart_reader(Source source) : source_(std::move(source)), header_(detail::decode(source_)) {}
+    explicit restart_reader(std::string path)
+        requires std::is_same_v<Source, file_source>
+        : restart_reader(file_source(std::move(path))) {}
+
+    [[nodiscard]] const restart_state& state() const noexcept { return header_.state; }
+    [[nodiscard]] std::span<const restart_field> fields_in_file() const noexcept { return header_.fields; }
+    /// One for each rank that has written.
+    [[nodiscard]] std::span<const restart_part> parts() const noexcept { return header_.parts; }
+    /// Of all parts.
+    [[nodiscard]] std::uint64_t count() const noexcept {
+        std::uint64_t particles = 0;
+        for (const auto& part : header_.parts) particles += part.particles;
+        return particles;
+    }
+
+    /// Adds the particles for which keep(particle) holds as owned ones; fields that are not in the set are zero.
+    /// Memory: what is kept, and one block. Strong guarantee; views end in any case.
+    /// @param set    the fields of the file, in its order
+    /// @param share  which blocks; others are not read
+    /// @throws input_error if the fields differ or the file is damaged, or the store has ghosts; limit_error from 2^31
+    ///         particles on; file_error if the disk fails.
+    template <auto... F, class Store, class Keep = keep_all>
+    void read(Store& store, fields<F...> set, Keep&& keep = {}, restart_share share = {}) const {
+        detail::check_fields(source_.name(), header_.fields, detail::restart_fields(set));
+        if (share.ranks == 0 || share.rank >= share.ranks)
+            detail::raise<input_error>("restart_reader::read",
+                                       "share " + std::to_string(share.rank) + " of " + std::to_string(share.ranks),
+                                       "shares go from 0 to ranks - 1");
+        const auto before = store.size();
+        store.add_owned(0);  // refuses ghosts, before any work
+        try {
+            read_parts(store, set, keep, share);
+        } catch (...) {
+            drop(store, before);
+            throw;
+        }
+    }
+
+private:
+    static constexpr auto head = detail::restart_block_header;
+    using block_header = std::array<std::uint64_t, head>;
+
+    /// Of a block.
+    struct place {
+        std::uint64_t byte;
+        std::uint64_t part;
+        std::uint64_t block;
+    };
+
+    template <auto... F, class Store, class Keep>
+    void read_parts(Store& store, fields<F...> set, Keep& keep, restart_share share) const {
+        particle_store<fields<F...>> met;  // one block
+        buffer<std::uint64_t> words;
+        std::uint64_t next = 0;
+        auto at = 8 * header_.words;
+        for (std::size_t p = 0; p < header_.parts.size(); ++p) {
+            const auto& part = header_.parts[p];
+            const auto end = at + part.bytes;
+            std::uint64_t particles = 0;
+            for (std::uint64_t b = 0; b < part.blocks; ++b) {
+                const place here{at, p, b};
+                const auto block = read_header(here, end, least_words(set));
+                particles += block[3];
+                at += 8 * head;
+                if (next++ % share.ranks == share.rank)
+                    take(store, set, keep, met, read_body(here, block, words), static_cast<std::size_t>(block[3]), here);
+                at += 8 * block[4];
+            }
+            if (at != end || particles != part.particles)
+                detail::refuse_restart(source_.name(), at, "part " + std::to_string(p) + " is not what the header says");
+        }
+    }
+    [[nodiscard]] block_header read_header(const place& here, std::uint64_t end, std::uint64_t least) const {
+        if (end - here.byte < 8 * head) refuse(here, "it does not fit its part");
+        block_header block{};
+        source_.read(here.byte, std::as_writable_bytes(std::span(block)));
+        if (block[0] != detail::restart_block_magic) refuse(here, "no block begins here");
+        if (crc64_of(std::span<const std::uint64_t>(block).first(head - 1)) != block[head - 1])
+            refuse(here, "the checksum of its header differs");
+        if (block[1] != here.part || block[2] != here.block || block[6] != header_.checksum)
+            refuse(here, "a block of another place or file lies here");
+        if (block[4] > (end - here.byte) / 8 - head || block[3] > header_.particles_per_block || block[3] > block[4] / least)
+            refuse(here, std::to_string(block[3]) + " particles in " + std::to_string(block[4]) + " words cannot be");
+        return block;
+    }
+    [[nodiscard]] std::span<const std::uint64_t> read_body(const place& here, const block_header& block,
+                                                           buffer<std::uint64_t>& words) const {
+        const auto count = static_cast<std::size_t>(block[4]);
+        if (count > words.size()) words = buffer<std::uint64_t>(count, {});
+        const std::span<std::uint64_t> body(words.data(), count);
+        source_.read(here.byte + 8 * head, std::as_writable_bytes(body));
+        if (crc64_of(body) != block[5]) refuse(here, "the checksum of its particles differs");
+        return body;
+    }
+    template <auto... F, class Store, class Keep>
+    void take(Store& store, fields<F...> set, Keep& keep, particle_store<fields<F...>>& met,
+              std::span<const std::uint64_t> words, std::size_t count, const place& here) const {
+        if constexpr (std::is_same_v<std::remove_cv_t<Keep>, keep_all>) {
+            add(store, set, words, count, here);
+        } else {
+            met.clear();
+            add(met, set, words, count, here);
+            std::vector<index_t> chosen;
+            for (const auto particle : std::as_const(met).owned())
+                if (keep(particle)) chosen.push_back(static_cast<index_t>(particle.index()));
+            if (chosen.size() == count) return add(store, set, words, count, here);
+            std::vector<std::uint64_t> kept(packed_words(met, set, chosen));
+            pack(met, set, chosen, kept);
+            add(store, set, kept, chosen.size(), here);
+        }
+    }
+    template <auto... F, class Store>
+    void add(Store& store, fields<F...> set, std::span<const std::uint64_t> words, std::size_t count,
+             const place& here) const {
+        const auto first = store.add_owned(count);
+        std::size_t taken = 0;
+        try {
+            taken = unpack(store, set, first, count, words);
+        } catch (const input_error&) {
+            refuse(here, "its words end too early");
+        }
+        if (taken != words.size()) refuse(here, "it has more words than its particles");
+        bool sound = true;
+        ((sound = sound && has_sound_bools<std::remove_cv_t<decltype(F)>>(store, first)), ...);
+        if (!sound) refuse(here, "a bool that is neither true nor false");
+    }
+    /// To look at a bool that is neither is undefined.
+    template <class Field, class Store>
+    [[nodiscard]] static bool has_sound_bools(Store& store, std::size_t first) {
+        bool sound = true;
+        if constexpr (std::is_same_v<typename Field::value_type, bool>) {
+            const auto column = store[Field{}];
+            for (std::size_t i = first; i < store.size(); ++i)
+                sound = sound && *reinterpret_cast<const unsigned char*>(&column[i]) <= 1;
+        }
+        return sound;
+    }
+    template <auto... F>
+    [[nodiscard]] static constexpr std::uint64_t least_words(fields<F...>) noexcept {
+        return (std::uint64_t{0} + ... + least_words_of<typename std::remove_cv_t<decltype(F)>::value_type>::value);
+    }
+    template <class Value>
+    struct least_words_of {
+        static constexpr std::uint64_t value = (sizeof(Value) + 7) / 8;
+    };
+    template <class Element>
+    struct least_words_of<list_of<Element>> {
+        static constexpr std::uint64_t value = 1;  // its length
+    };
+    template <class Store>
+    static void drop(Store& store, std::size_t count) noexcept {
+        while (store.size() > count) {
+            try {
+                store.swap_remove(store.size() - 1);
+            } catch (const std::bad_alloc&) {  // of the compaction of lists, after the particle went
+            }
+        }
+    }
+    [[noreturn]] void refuse(const place& here, const std::string& reason) const {
+        detail::refuse_restart(source_.name(), here.byte,
+                               "block " + std::to_string(here.block) + " of part " + std::to_string(here.part) + ": " +
+                                   reason);
+    }
+
+    Source source_;
+    detail::restart_header header_;
+};
+restart_reader(std::string) -> restart_reader<file_source>;
+restart_reader(const char*) -> restart_reader<file_source>;
+
+/// Adds the particles of a file as owned ones; what else it holds. See restart_reader.
+template <auto... F, class Store>
+restart_state read_restart(const std::string& path, Store& store, fields<F...> set) {
+    const restart_reader file(path);
+    file.read(store, set);
+    return file.state();
+}
+
+}  // namespace tsubu

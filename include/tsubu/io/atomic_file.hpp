@@ -11,9 +11,10 @@
 #include <cerrno>     // errno
 #include <cstddef>    // std::byte, std::size_t
 #include <cstdint>    // std::uint64_t
+#include <cstdio>     // rename
 #include <span>       // std::span
 #include <string>     // std::string
-#include <utility>    // std::exchange
+#include <utility>    // std::exchange, std::move, std::swap
 
 #include <fcntl.h>     // open
 #include <sys/stat.h>  // fstat
@@ -125,7 +126,7 @@ public:
 private:
     [[nodiscard]] static file_writer fresh(const std::string& path) {
         static std::atomic<unsigned> last = 0;
-        constexpr int tries = 1000;  // each is a file that a process of the same number left, here or on another machine
+        constexpr int tries = 1000;  // each is a file of a process of the same number, on another machine or long ago
         for (int k = 0; k < tries; ++k) {
             file_writer writer(path + "." + std::to_string(::getpid()) + "-" + std::to_string(++last) + ".partial",
                                O_CREAT | O_EXCL);

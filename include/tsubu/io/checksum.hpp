@@ -24,8 +24,7 @@ inline constexpr auto crc64_table = [] {
         table[0][b] = remainder;
     }
     for (std::size_t k = 1; k < crc64_stride; ++k)
-        for (std::size_t b = 0; b < 256; ++b)
-            table[k][b] = (table[k - 1][b] >> 8) ^ table[0][table[k - 1][b] & 0xFF];
+        for (std::size_t b = 0; b < 256; ++b) table[k][b] = (table[k - 1][b] >> 8) ^ table[0][table[k - 1][b] & 0xFF];
     return table;
 }();
 

@@ -26,19 +26,19 @@ namespace detail {
 
 [[nodiscard]] inline const char* file_remedy(int code) noexcept {
     switch (code) {
-    case ENOENT: return "check the name, and make the folder first";
-    case ENOTDIR: return "a part of the path is a file where a folder should be; check the name";
-    case EISDIR: return "there is a folder with this name; give the name of a file";
-    case EACCES:
-    case EPERM:
-    case EROFS: return "take a folder and a file that you are allowed to use";
-    case ENOSPC:
-    case EDQUOT: return "free some space, or write to another disk";
-    case EFBIG: return "raise the limit of file sizes (ulimit -f), or write to another file system";
-    case EMFILE:
-    case ENFILE: return "close some files, or raise their limit (ulimit -n)";
-    case ENAMETOOLONG: return "give a shorter name";
-    default: return "check the disk and the file system";
+        case ENOENT: return "check the name, and make the folder first";
+        case ENOTDIR: return "a part of the path is a file where a folder should be; check the name";
+        case EISDIR: return "there is a folder with this name; give the name of a file";
+        case EACCES:
+        case EPERM:
+        case EROFS: return "take a folder and a file that you are allowed to use";
+        case ENOSPC:
+        case EDQUOT: return "free some space, or write to another disk";
+        case EFBIG: return "raise the limit of file sizes (ulimit -f), or write to another file system";
+        case EMFILE:
+        case ENFILE: return "close some files, or raise their limit (ulimit -n)";
+        case ENAMETOOLONG: return "give a shorter name";
+        default: return "check the disk and the file system";
     }
 }
 

@@ -29,7 +29,7 @@ struct lammps_count {
 ///     tsubu::lammps_header top{.title = "a drop", .lo = {0, 0, 0}, .hi = {2, 2, 5}};
 ///     auto box = top.box({true, true, false});
 struct lammps_header {
-    std::string title;
+    std::string title{};
     lammps_count atoms{};
     lammps_count bonds{};
     lammps_count angles{};

@@ -10,6 +10,7 @@
 #include <tsubu/io/detail/atom_row.hpp>
 #include <tsubu/io/detail/field_named.hpp>
 #include <tsubu/io/detail/header_reader.hpp>
+#include <tsubu/io/detail/line_places.hpp>
 #include <tsubu/io/detail/line_reader.hpp>
 #include <tsubu/io/detail/mass_table.hpp>
 #include <tsubu/io/detail/row.hpp>
@@ -21,12 +22,12 @@
 #include <tsubu/store/term.hpp>
 #include <tsubu/store/topology.hpp>
 
-#include <algorithm>    // std::find
+#include <algorithm>    // std::find, std::min
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
 #include <string>       // std::string
 #include <string_view>  // std::string_view
-#include <type_traits>  // std::remove_cv_t
+#include <type_traits>  // std::is_same_v, std::remove_const_t, std::remove_cv_t
 #include <utility>      // std::move
 #include <vector>       // std::vector
 
@@ -95,6 +96,7 @@ private:
     template <class Store>
     struct reading {
         Store particles;
+        std::vector<std::int64_t> names{};  // ids, in the order of the file
         id_map<> where{};
         std::vector<std::int32_t> types{};  // where masses are to follow from them
         bool keeps_all = true;  // no particle was left to others: every id of the file is known here
@@ -210,6 +212,15 @@ void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
     using real = detail::scalar_named<Store, "position">;
     const auto columns = atom_columns(style_);
     std::size_t given = 0;
+    auto& names = now.names;
+    detail::line_places places;
+    if constexpr (std::is_same_v<std::remove_const_t<Keep>, every_particle>) {
+        constexpr std::size_t shortest_row = 10;  // "1 1 0 0 0", and its end: what the header promises may be too much
+        const auto expected = (std::min)(static_cast<std::uint64_t>(header_.atoms.rows),
+                                         static_cast<std::uint64_t>(lines_.size() / shortest_row));
+        now.particles.reserve(static_cast<std::size_t>(expected));
+        names.reserve(static_cast<std::size_t>(expected));
+    }
     rows("Atoms", header_.atoms.rows, [&](row_type& row) {
         if (given == 0) given = detail::count_words(row.rest());
         const auto atom = detail::read_atom<real>(row, style_, given == columns + 3, header_.atoms.types);
@@ -225,14 +236,22 @@ void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
             now.keeps_all = false;
             return;
         }
-        if (now.where.contains(atom.name)) [[unlikely]]
-            row.fail("a second particle with the id " + std::to_string(atom.name), "give each particle an id of its own");
-        now.where.assign(atom.name, static_cast<index_t>(particles.size()));
+        names.push_back(atom.name);
+        places.push_back(lines_.number());
         detail::append_atom(particles, atom, row);
         if constexpr (detail::has_named<Store, "mass">)
             if (!is_sphere(style_)) now.types.push_back(atom.type);
     });
     now.has_atoms = true;
+    now.where.rebuild(names);  // at once: several times faster than id by id, and so are look-ups later
+    if (now.where.size() == names.size()) return;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (const auto first = static_cast<std::size_t>(now.where.find(names[i])); first != i)
+            detail::raise<input_error>("lammps_reader",
+                                       std::string(lines_.name()) + ", line " + std::to_string(places[i]) +
+                                           ": a second particle with the id " + std::to_string(names[i]) +
+                                           ", which line " + std::to_string(places[first]) + " has",
+                                       "give each particle an id of its own");
 }
 
 template <text_source Source>
@@ -240,7 +259,8 @@ template <class Store>
 void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     using real = detail::scalar_named<Store, "velocity">;
     using angular = detail::scalar_named<Store, "angular_velocity">;
-    std::vector<bool> seen(now.particles.size());
+    std::vector<bool> seen(now.names.size());
+    std::size_t expected = 0;  // most files list velocities in the order of atoms: then nothing is to be looked up
     rows("Velocities", header_.atoms.rows, [&](row_type& row) {
         const auto name = row.template next_from<std::int64_t>(1, "the id");
         vec<3, real> v{};
@@ -249,9 +269,13 @@ void lammps_reader<Source>::read_velocities(reading<Store>& now) {
         if (is_sphere(style_))
             for (auto& one : w) one = row.template next<angular>("an angular velocity");
         row.expect_end();
-        const auto at = find(now, name, row);
-        if (at == absent) return;
-        const auto i = static_cast<std::size_t>(at);
+        auto i = expected;
+        if (i >= now.names.size() || now.names[i] != name) {
+            const auto at = find(now, name, row);
+            if (at == absent) return;
+            i = static_cast<std::size_t>(at);
+        }
+        expected = i + 1;
         if (seen[i]) [[unlikely]]
             row.fail("a second velocity of id " + std::to_string(name), "leave one of them");
         seen[i] = true;
@@ -263,7 +287,7 @@ void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     if (const auto missed = std::find(seen.begin(), seen.end(), false); missed != seen.end()) {
         const auto i = static_cast<std::size_t>(missed - seen.begin());
         lines_.fail("Velocities, which end here, have none of id " +
-                        std::to_string(now.particles[detail::field_named<Store, "id">{}][i]),
+                        std::to_string(now.names[i]),
                     "give each particle one");
     }
     now.has_velocities = true;

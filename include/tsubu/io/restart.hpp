@@ -12,8 +12,10 @@
 #include <tsubu/io/checksum.hpp>
 #include <tsubu/io/detail/restart_format.hpp>
 #include <tsubu/io/restart_state.hpp>
+#include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/growth.hpp>
+#include <tsubu/store/list_of.hpp>
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
@@ -26,12 +28,15 @@
 #include <span>         // std::as_bytes, std::span
 #include <string>       // std::string, std::to_string
 #include <type_traits>  // std::is_same_v, std::remove_cv_t
-#include <utility>      // std::move
+#include <utility>      // std::as_const, std::move
 #include <vector>       // std::vector
 
 namespace tsubu {
 namespace detail {
 
+inline void check_block(const char* where, std::size_t particles_per_block) {
+    if (particles_per_block == 0) raise<input_error>(where, "blocks of no particle", "give at least 1");
+}
 /// Calls body(indices) for the owned particles of a store, some at a time.
 template <class Store, class Body>
 void each_block_of(const Store& store, std::size_t particles_per_block, Body&& body) {
@@ -63,10 +68,13 @@ void each_block_of(const Store& store, std::size_t particles_per_block, Body&& b
 /// What is equal on all ranks: the set, the state, the parts. Threads: any number of readers.
 class restart_plan {
 public:
-    /// @param parts  what restart_part_of says, of rank 0, 1, ...
+    /// @param parts  what restart_part_of says, of rank 0, 1, ..., for as many particles per block
+    /// @throws input_error if there are no particles per block.
     template <auto... F>
     restart_plan(fields<F...> set, const restart_state& state, std::vector<restart_part> parts,
                  std::size_t particles_per_block = store_block) {
+        static_assert(sizeof...(F) > 0, "a restart file needs a field");
+        detail::check_block("restart_plan", particles_per_block);
         header_.state = state;
         header_.particles_per_block = particles_per_block;
         header_.fields = detail::restart_fields(set);
@@ -83,8 +91,8 @@ public:
     }
     /// @throws file_error
     void write_header(file_writer& file) const { file.write_at(0, std::as_bytes(std::span(words_))); }
-    /// Writes the owned particles of a rank into its part. Memory: one block. @throws file_error; input_error if they are
-    /// not those that the plan was made for.
+    /// Writes the owned particles of a rank into its part. Memory: one block. @throws file_error; input_error if they
+    /// are not those that the plan was made for.
     template <auto... F, class Store>
     void write_part(file_writer& file, std::size_t rank, const Store& store, fields<F...> set) const {
         if (rank >= header_.parts.size() || header_.parts[rank].particles != store.owned_count() ||
@@ -130,7 +138,8 @@ private:
     }
     [[noreturn]] static void refuse(std::size_t rank) {
         detail::raise<input_error>("restart_plan::write_part",
-                                   "the particles or fields of rank " + std::to_string(rank) + " are not those of the plan",
+                                   "the particles or fields of rank " + std::to_string(rank) +
+                                       " are not those of the plan",
                                    "plan and write without a change of the store in between");
     }
 
@@ -143,8 +152,7 @@ private:
 template <auto... F, class Store>
 [[nodiscard]] restart_part restart_part_of(const Store& store, fields<F...> set,
                                            std::size_t particles_per_block = store_block) {
-    static_assert(sizeof...(F) > 0, "a restart file needs a field");
-    if (particles_per_block == 0) detail::raise<input_error>("restart_part_of", "blocks of no particle", "give at least 1");
+    detail::check_block("restart_part_of", particles_per_block);
     restart_part part;
     part.particles = store.owned_count();
     detail::each_block_of(store, particles_per_block, [&](std::span<const index_t> chosen) {
@@ -189,9 +197,9 @@ struct restart_share {
 ///     const auto box = file.state().box.as<tsubu::domain<3>>();
 ///     file.read(g, set{}, [&](const auto& particle) { return mine.contains(particle[tsubu::position<3>]); });
 ///
-/// Any number of ranks may read, whatever number has written: each keeps what is its own, or takes a share of the blocks
-/// and migrates after. A file that is damaged, not whole, longer, foreign, of another version or byte order is refused,
-/// with its name, the place and the reason.
+/// Any number of ranks may read, whatever number has written: each keeps what is its own, or takes a share of the
+/// blocks and migrates after. A file that is damaged, not whole, longer, foreign, of another version or byte order is
+/// refused, with its name, the place and the reason.
 ///
 /// @tparam Source  a byte_source.
 /// Threads: any number of readers, into different stores.
@@ -265,11 +273,13 @@ private:
                 particles += block[3];
                 at += 8 * head;
                 if (next++ % share.ranks == share.rank)
-                    take(store, set, keep, met, read_body(here, block, words), static_cast<std::size_t>(block[3]), here);
+                    take(store, set, keep, met, read_body(here, block, words), static_cast<std::size_t>(block[3]),
+                         here);
                 at += 8 * block[4];
             }
             if (at != end || particles != part.particles)
-                detail::refuse_restart(source_.name(), at, "part " + std::to_string(p) + " is not what the header says");
+                detail::refuse_restart(source_.name(), at,
+                                       "part " + std::to_string(p) + " is not what the header says");
         }
     }
     [[nodiscard]] block_header read_header(const place& here, std::uint64_t end, std::uint64_t least) const {
@@ -281,7 +291,8 @@ private:
             refuse(here, "the checksum of its header differs");
         if (block[1] != here.part || block[2] != here.block || block[6] != header_.checksum)
             refuse(here, "a block of another place or file lies here");
-        if (block[4] > (end - here.byte) / 8 - head || block[3] > header_.particles_per_block || block[3] > block[4] / least)
+        if (block[4] > (end - here.byte) / 8 - head || block[3] > header_.particles_per_block ||
+            block[3] > block[4] / least)
             refuse(here, std::to_string(block[3]) + " particles in " + std::to_string(block[4]) + " words cannot be");
         return block;
     }
@@ -348,6 +359,10 @@ private:
     template <class Element>
     struct least_words_of<list_of<Element>> {
         static constexpr std::uint64_t value = 1;  // its length
+    };
+    template <class Element>
+    struct least_words_of<bonus_of<Element>> {
+        static constexpr std::uint64_t value = 1;  // whether there is one
     };
     template <class Store>
     static void drop(Store& store, std::size_t count) noexcept {

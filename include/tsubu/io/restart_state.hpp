@@ -26,8 +26,9 @@ struct restart_box {
     restart_box() = default;
     /// Of a domain, or of a triclinic_box.
     template <class Box>
-        requires(Box::dimension >= 1 && Box::dimension <= 3)
+        requires requires(const Box& box) { box.cell(); }
     explicit restart_box(const Box& box) : dimension(Box::dimension) {
+        static_assert(Box::dimension <= 3);
         std::size_t tilt = 0;
         for (std::size_t k = 0; k < Box::dimension; ++k) {
             periodic[k] = box.cell().along(k).is_periodic();
@@ -51,7 +52,8 @@ struct restart_box {
         constexpr auto d = Box::dimension;
         if (dimension != d)
             detail::raise<input_error>("restart_box",
-                                       "a box of " + std::to_string(dimension) + " dimensions for one of " + std::to_string(d),
+                                       "a box of " + std::to_string(dimension) + " dimensions for one of " +
+                                           std::to_string(d),
                                        "ask for the box that was written");
         std::array<bool, d> around{};
         for (std::size_t k = 0; k < d; ++k) around[k] = periodic[k];

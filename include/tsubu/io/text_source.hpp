@@ -21,7 +21,8 @@ namespace tsubu {
 
 /// Gives characters in order, each once.
 ///  1. read(into) writes the next characters to the front of `into`, and returns how many; 0 only at the end;
-///  2. name() is what errors call it.
+///  2. name() is what errors call it;
+///  3. if there is a size(), no more than so many characters come: memory is taken for no more than they can tell.
 template <class Source>
 concept text_source = requires(Source& source, const Source& read_only, std::span<char> into) {
     { source.read(into) } -> std::same_as<std::size_t>;
@@ -42,6 +43,7 @@ public:
         return count;
     }
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    [[nodiscard]] std::size_t size() const noexcept { return rest_.size(); }
 
 private:
     std::string_view rest_;
@@ -59,6 +61,12 @@ public:
         if (file_ == nullptr)
             detail::raise<input_error>("file_source", name_ + ": " + std::strerror(errno), "give a file that can be read");
         std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // chunks are large: a second buffer would only copy
+        if (std::fseek(file_.get(), 0, SEEK_END) == 0) {  // a pipe has no end to go to, and no size
+            const auto end = std::ftell(file_.get());
+            size_ = end > 0 ? static_cast<std::size_t>(end) : 0;
+            std::rewind(file_.get());
+        }
+        std::clearerr(file_.get());
     }
     /// @throws input_error if the system cannot read on.
     [[nodiscard]] std::size_t read(std::span<char> into) {
@@ -68,6 +76,8 @@ public:
         return count;
     }
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    /// When it was opened; 0 if it has none.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
 private:
     struct closer {
@@ -76,6 +86,7 @@ private:
 
     std::string name_;
     std::unique_ptr<std::FILE, closer> file_;
+    std::size_t size_ = 0;
 };
 static_assert(text_source<file_source>);
 

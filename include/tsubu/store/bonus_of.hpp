@@ -41,6 +41,8 @@ struct bonus_place {
 /// Invariant: owner(place(i).at) == i for each particle i that has a value.
 template <class Value>
 class bonus_pool {
+    static_assert(std::is_trivially_copyable_v<Value>, "bonus_of holds a trivially copyable type");
+
 public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] Value& value(bonus_place place) noexcept { return values_[static_cast<std::size_t>(place.at)]; }

@@ -40,7 +40,7 @@ struct field_value;
 /// What a particle carries: a name, a type, a unit, and how it travels. An object without state; its type says it all.
 ///
 ///     inline constexpr tsubu::field<"temperature", double, "K"> temperature{};
-///     inline constexpr tsubu::field<"heat", double, "J", {.when = tsubu::travels::never}> heat{};
+///     inline constexpr tsubu::field<"heat", double, "J", tsubu::field_traits{.when = tsubu::travels::never}> heat{};
 ///
 /// @tparam Value  trivially copyable, or list_of<T> for as many values as each particle has.
 template <fixed_string Name, class Value, fixed_string Unit = "", field_traits Traits = field_traits{}>

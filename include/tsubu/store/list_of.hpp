@@ -51,6 +51,8 @@ struct list_extent {
 
 template <class Element>
 class list_pool {
+    static_assert(std::is_trivially_copyable_v<Element>, "list_of holds a trivially copyable type");
+
 public:
     [[nodiscard]] Element* at(const list_extent& list) noexcept { return elements_.data() + list.begin; }
     [[nodiscard]] const Element* at(const list_extent& list) const noexcept { return elements_.data() + list.begin; }

@@ -69,7 +69,9 @@ public:
     {
         return *this = static_cast<record>(other);
     }
-    particle_reference& operator=(const particle_reference& other) noexcept {
+    particle_reference& operator=(const particle_reference& other) noexcept
+        requires(!is_const)
+    {
         static_cast<const particle_reference&>(*this) = static_cast<record>(other);
         return *this;
     }

@@ -106,7 +106,7 @@ public:
     particle_store(const particle_store& other)
         : pools_(other.pools_), growth_(other.growth_), memory_(other.memory_), size_(other.size_), owned_(other.owned_) {}
     particle_store(particle_store&& other) noexcept
-        : pools_(std::move(other.pools_)),
+        : pools_(std::exchange(other.pools_, pools())),
           growth_(other.growth_),
           memory_(std::exchange(other.memory_, memory())),
           size_(std::exchange(other.size_, 0)),
@@ -146,6 +146,12 @@ public:
         requires(fields_type::template has<Field>)
     [[nodiscard]] auto operator[](Field) const noexcept {
         return column_of<Field>(*this);
+    }
+    /// Says which field is missing.
+    template <particle_field Field>
+        requires(!fields_type::template has<Field>)
+    void operator[](Field) const noexcept {
+        static_assert(has<Field>, "this store has no such field; name it in fields<...>");
     }
     /// All of one particle.
     template <std::integral Index>

@@ -55,7 +55,10 @@ public:
         if (rows_.empty() || dice == 0) return reallocate();
         if (dice == 1) return gather();
         if (dice == 2) return copy();
-        if (dice < 6) return write(random_.below(rows_.size()));
+        if (dice < 6) {
+            write(random_.below(rows_.size()));
+            return report(holds(memory_, rows_), layout_law::apart);
+        }
         const auto i = random_.below(rows_.size());
         const auto j = random_.below(rows_.size());
         if (dice < 11) {
@@ -116,12 +119,12 @@ private:
         if (memory_.capacity() < count) return;
         rows_.resize(count);
         for (std::size_t i = kept; i < count; ++i) write(i);
+        report(holds(memory_, rows_), layout_law::apart);
     }
     void write(std::size_t i) {
         const auto word = random_();
         fill(rows_[i], word, all);
         each([&]<std::size_t K>() { memory_.template at<K>(i) = std::get<K>(rows_[i]); });
-        report(holds(memory_, rows_), layout_law::apart);
     }
     void gather() {
         std::vector<index_t> order(random_.below(rows_.size() + 1));

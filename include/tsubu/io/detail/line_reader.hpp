@@ -41,7 +41,10 @@ template <text_source Source>
 class line_reader {
 public:
     /// @param chunk  characters held at a time; a line may not be longer
-    line_reader(Source source, std::size_t chunk) : source_(std::move(source)), buffer_((std::max)(chunk, std::size_t{1})) {}
+    line_reader(Source source, std::size_t chunk)
+        : source_(std::move(source)), buffer_((std::max)(chunk, std::size_t{1})) {
+        if constexpr (requires { source_.size(); }) size_ = source_.size();
+    }
 
     /// Goes to the next line, whatever is in it. @return false at the end.
     [[nodiscard]] bool next() {
@@ -83,6 +86,8 @@ public:
     /// Counted from 1.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
     [[nodiscard]] std::string_view name() const noexcept { return source_.name(); }
+    /// Characters in all, as far as the source tells; else 0.
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
     /// Tells what is wrong with this line.
     [[noreturn, gnu::cold, gnu::noinline]] void fail(const std::string& reason, const char* remedy) const {
@@ -122,6 +127,7 @@ private:
     }
 
     Source source_;
+    std::size_t size_ = 0;
     std::vector<char> buffer_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;

@@ -10,16 +10,17 @@
 #include <tsubu/io/restart_state.hpp>
 #include <tsubu/store/field.hpp>
 
+#include <algorithm>    // std::min
 #include <array>        // std::array
 #include <bit>          // std::bit_cast
 #include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::uint64_t
 #include <cstring>      // std::memcpy
-#include <limits>       // std::numeric_limits
 #include <span>         // std::span
 #include <string>       // std::string
 #include <string_view>  // std::string_view
 #include <type_traits>  // std::remove_cv_t
+#include <utility>      // std::move
 #include <vector>       // std::vector
 
 namespace tsubu::detail {
@@ -29,14 +30,16 @@ namespace tsubu::detail {
 //     header   magic | byte order | version | words of the header | bytes of the file | particles per block | step |
 //              dimension | periodic | lo 3 | hi 3 | lengths 3 | tilts 3 | user words: how many, ... |
 //              fields: how many, each: name, type, unit | parts: how many, each: particles, blocks, bytes | checksum
-//     part 0   block 0: magic | part | block | particles | words | checksum of the body | checksum of the file's header |
+//     part 0   block 0: magic | part | block | particles | words | checksum of the body | checksum of the file's header
+//     |
 //                       checksum of these seven | body: particles as pack() lays them
 //              block 1 ...
 //     part 1 ...
 //
-// A text is its length in bytes, and its bytes, zeros up to the next word. Parts follow one another without gaps, so where
-// each begins is a sum, and where the last one ends is the end of the file. Every bit is under a checksum or compared with
-// what it must be; that of the header is in each block, so blocks of other files are not taken for this one's.
+// A text is its length in bytes, and its bytes, zeros up to the next word. Parts follow one another without gaps, so
+// where each begins is a sum, and where the last one ends is the end of the file. Every bit is under a checksum or
+// compared with what it must be; that of the header is in each block, so blocks of other files are not taken for this
+// one's.
 
 inline constexpr auto restart_magic =  // a byte above 127 and a line end, which transfers as text would change
     std::bit_cast<std::uint64_t>(std::array<unsigned char, 8>{0x89, 't', 's', 'u', 'b', 'u', '\r', '\n'});
@@ -44,7 +47,7 @@ inline constexpr auto restart_block_magic =
     std::bit_cast<std::uint64_t>(std::array<unsigned char, 8>{'p', 'a', 'r', 't', 'i', 'c', 'l', 'e'});
 inline constexpr std::uint64_t restart_byte_order = 0x0102030405060708;
 inline constexpr std::uint64_t restart_other_byte_order = 0x0807060504030201;
-inline constexpr std::uint64_t restart_version = 1;
+inline constexpr std::uint64_t restart_version = 1;  // of all this, and of the words that pack() writes
 inline constexpr std::size_t restart_least_header = 5;  // magic .. bytes of the file
 inline constexpr std::size_t restart_block_header = 8;
 
@@ -173,10 +176,12 @@ template <byte_source Source>
         refuse_restart(name, 0, "this is no restart file of tsubu", "give one that write_restart has written");
     if (has == begin_bytes && begin[1] == restart_other_byte_order)
         refuse_restart(name, 8, "written on a machine of the other byte order", "read it on such a machine");
-    if (has == begin_bytes && begin[1] != restart_byte_order) refuse_restart(name, 8, "the mark of the byte order differs");
+    if (has == begin_bytes && begin[1] != restart_byte_order)
+        refuse_restart(name, 8, "the mark of the byte order differs");
     if (has == begin_bytes && begin[2] != restart_version)
-        refuse_restart(name, 16, "format version " + std::to_string(begin[2]) + "; this is a reader of version " +
-                                     std::to_string(restart_version),
+        refuse_restart(name, 16,
+                       "format version " + std::to_string(begin[2]) + "; this is a reader of version " +
+                           std::to_string(restart_version),
                        "read it with the version of tsubu that wrote it");
     restart_header header;
     header.words = begin[3];
@@ -191,7 +196,8 @@ template <byte_source Source>
     if (crc64_of(checked) != header.checksum) refuse_restart(name, 0, "the checksum of the header differs");
     if (header.bytes != size)
         refuse_restart(name, (std::min)(size, header.bytes),
-                       "the file has " + std::to_string(size) + " bytes; its header says " + std::to_string(header.bytes),
+                       "the file has " + std::to_string(size) + " bytes; its header says " +
+                           std::to_string(header.bytes),
                        size < header.bytes ? "it is not whole; take an older one"
                                            : "something was appended to it; take an older one");
 

@@ -3,9 +3,9 @@
 /// row: the numbers of a line, read strictly.
 #pragma once
 
+#include <tsubu/io/detail/decimal.hpp>
 #include <tsubu/io/detail/line_reader.hpp>
 
-#include <charconv>      // std::from_chars
 #include <cmath>         // std::isfinite
 #include <concepts>      // std::floating_point
 #include <cstddef>       // std::size_t
@@ -46,7 +46,7 @@ public:
     template <class Number>
     [[nodiscard]] Number next(const char* what) {
         Number value{};
-        const auto [stop, code] = std::from_chars(at_, end_, value);
+        const auto [stop, code] = read_number(at_, end_, value);
         if (code != std::errc{} || (stop != end_ && !is_blank(*stop)) || !is_finite(value)) [[unlikely]]
             refuse<Number>(what, code);
         at_ = stop;

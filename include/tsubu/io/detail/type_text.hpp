@@ -3,6 +3,7 @@
 /// The type of a field in words that are the same on every machine: "float64[3]", "list of int32".
 #pragma once
 
+#include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/list_of.hpp>
 
 #include <array>        // std::array
@@ -34,6 +35,10 @@ struct type_text_of<std::array<Value, N>> {
 template <class Element>
 struct type_text_of<list_of<Element>> {
     [[nodiscard]] static std::string get() { return "list of " + type_text_of<Element>::get(); }
+};
+template <class Element>
+struct type_text_of<bonus_of<Element>> {
+    [[nodiscard]] static std::string get() { return "bonus of " + type_text_of<Element>::get(); }
 };
 
 }  // namespace tsubu::detail

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include <tsubu/store/aos.hpp>
+#include <tsubu/store/pack.hpp>
+#include <tsubu/store/particle_store.hpp>
+#include <tsubu/store/standard_fields.hpp>
+#include <tsubu/store/term.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+inline constexpr tsubu::field<"temperature", double, "K"> temperature{};
+
+#if CASE == 1 || CASE == 2 || CASE == 3
+using set = tsubu::fields<tsubu::id>;
+#elif CASE == 4
+using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"label", std::string>{}>;
+#elif CASE == 5
+using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"labels", tsubu::list_of<std::string>>{}>;
+#elif CASE == 6
+using set = tsubu::fields<tsubu::id, temperature, 3>;
+#else
+using set = tsubu::fields<tsubu::id, temperature>;
+#endif
+
+int main() {
+    tsubu::particle_store<set, tsubu::aos> g;
+#if CASE == 1
+    g.push_back(temperature = 300);
+#elif CASE == 2
+    g[temperature][0] = 300;
+#elif CASE == 3
+    std::vector<std::uint64_t> words(10);
+    tsubu::pack(g, tsubu::fields<tsubu::id, temperature>{}, std::vector<tsubu::index_t>{0}, words);
+#elif CASE == 7
+    const auto& read = g;
+    read[temperature][0] = 300;
+#elif CASE == 8
+    tsubu::term<5> one;
+#else
+    g.push_back(temperature = 300, tsubu::id = 1);
+    g[temperature][0] = 301;
+#endif
+    return g.size() == 1 ? 0 : 1;
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include <tsubu/io/atomic_file.hpp>
+
+#include "support/catch.hpp"
+#include "unit/io/scratch_folder.hpp"
+#include "unit/thrown.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+using tsubu::atomic_file;
+using tsubu::file_error;
+
+namespace {
+
+/// While it lives, files may not become longer.
+class longest_file {
+public:
+    explicit longest_file(rlim_t bytes) : old_signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &old_);
+        auto limit = old_;
+        limit.rlim_cur = bytes;
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    longest_file(const longest_file&) = delete;
+    ~longest_file() {
+        ::setrlimit(RLIMIT_FSIZE, &old_);
+        std::signal(SIGXFSZ, old_signal_);
+    }
+
+private:
+    void (*old_signal_)(int);
+    rlimit old_{};
+};
+
+}  // namespace
+
+TEST_CASE("a file has its name when it is whole, and not before", "[io][atomic_file]") {
+    const scratch_folder folder;
+    const auto path = folder / "run.vtp";
+    write_bytes(path, "old");
+    {
+        atomic_file file(path);
+        file.append("new ");
+        file.append("content");
+        CHECK(file.appended() == 11);
+        CHECK(bytes_of(path) == "old");
+        CHECK(folder.files() == 2);
+        CHECK(bytes_of(file.temporary_path()) == "new content");
+        file.commit();
+        CHECK(bytes_of(path) == "new content");
+    }
+    CHECK(bytes_of(path) == "new content");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("what is not whole leaves nothing behind", "[io][atomic_file]") {
+    const scratch_folder folder;
+    const auto path = folder / "run.vtp";
+    for (const bool old : {false, true}) {
+        if (old) write_bytes(path, "old");
+        { atomic_file file(path); }
+        try {
+            atomic_file file(path);
+            file.append("half of it");
+            throw std::runtime_error("in between");
+        } catch (const std::runtime_error&) {
+        }
+        CHECK(folder.files() == (old ? 1 : 0));
+    }
+    CHECK(bytes_of(path) == "old");
+}
+
+TEST_CASE("two at once do not meet", "[io][atomic_file]") {
+    const scratch_folder folder;
+    atomic_file first(folder / "a");
+    atomic_file second(folder / "a");
+    CHECK(first.temporary_path() != second.temporary_path());
+    // As if a process of the same number, on another machine, were writing to the same disk.
+    const auto used = second.temporary_path();
+    const auto number = std::stoi(used.substr(used.rfind('-') + 1));
+    const auto prefix = (folder / "b.") + std::to_string(::getpid()) + "-";
+    for (int k = 1; k <= 500; ++k) write_bytes(prefix + std::to_string(number + k) + ".partial", "");
+    atomic_file third(folder / "b");
+    third.append("mine");
+    third.commit();
+    first.append("1");
+    second.append("2");
+    second.commit();
+    first.commit();
+    CHECK(bytes_of(folder / "a") == "1");
+    CHECK(bytes_of(folder / "b") == "mine");
+    CHECK(folder.files() == 502);
+}
+
+TEST_CASE("others write into it at their places", "[io][atomic_file]") {
+    const scratch_folder folder;
+    atomic_file file(folder / "a");
+    tsubu::file_writer other(file.temporary_path());
+    other.write_at(3, std::as_bytes(std::span("def", 3)));
+    file.writer().write_at(0, std::as_bytes(std::span("abc", 3)));
+    other.close();
+    CHECK(file.writer().size() == 6);
+    file.commit();
+    CHECK(bytes_of(folder / "a") == "abcdef");
+}
+
+TEST_CASE("the system's refusals are told with name, reason and remedy", "[io][atomic_file][input]") {
+    const scratch_folder folder;
+    const auto no_folder = thrown<file_error>([&] { atomic_file(folder / "none/run.vtp"); });
+    INFO(no_folder);
+    CHECK(says(no_folder, "none/run.vtp"));
+    CHECK(says(no_folder, "No such file or directory"));
+    CHECK(says(no_folder, "make the folder first"));
+
+    write_bytes(folder / "plain", "");
+    CHECK(says(thrown<file_error>([&] { atomic_file(folder / "plain/run.vtp"); }), "Not a directory"));
+
+    std::filesystem::create_directory(folder / "taken");
+    const auto taken = thrown<file_error>([&] { atomic_file(folder / "taken").commit(); });
+    INFO(taken);
+    CHECK(says(taken, "cannot give its name to"));
+    CHECK(says(taken, "there is a folder with this name"));
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("a full disk is told, and nothing is left on it", "[io][atomic_file][input]") {
+    const scratch_folder folder;
+    const std::string half(5000, 'x');
+    {
+        const longest_file limit(8000);
+        const auto message = thrown<file_error>([&] {
+            atomic_file file(folder / "run.vtp");
+            file.append(half);
+            file.append(half);
+            file.commit();
+        });
+        INFO(message);
+        CHECK(says(message, "run.vtp"));
+        CHECK(says(message, "File too large; raise the limit"));
+    }
+    CHECK(folder.files() == 0);
+    if (::access("/dev/full", W_OK) == 0) {
+        const auto message = thrown<file_error>([&] {
+            tsubu::file_writer file("/dev/full");
+            file.write_at(0, std::as_bytes(std::span(half)));
+        });
+        INFO(message);
+        CHECK(says(message, "cannot write /dev/full: No space left on device; free some space"));
+    }
+}

@@ -11,7 +11,7 @@
 #include <cstddef>      // std::size_t
 #include <tuple>        // std::tuple
 #include <type_traits>  // std::is_trivially_copyable_v
-#include <utility>      // std::index_sequence, std::swap
+#include <utility>      // std::as_const, std::index_sequence, std::swap
 
 namespace tsubu {
 namespace detail {
@@ -84,10 +84,10 @@ struct soa {
         void swap_rows(std::size_t i, std::size_t j) noexcept {
             std::apply([&](auto&... array) { (std::swap(array.data()[i], array.data()[j]), ...); }, arrays_);
         }
-        /// One field after the other: reads at random, writes in order, and one array more than there are.
+        /// One field after the other: reads at random, writes in order. Strong guarantee: all memory is asked for first.
         template <class Index>
         void gather(const Index* order, std::size_t count) {
-            std::apply([&](auto&... array) { (gather_one(array, order, count), ...); }, arrays_);
+            gather(order, count, all);
         }
 
     private:
@@ -98,13 +98,14 @@ struct soa {
             arrays_ = std::move(fresh);
             capacity_ = capacity;
         }
-        template <class Array, class Index>
-        void gather_one(Array& array, const Index* order, std::size_t count) {
-            Array fresh(capacity_);
-            const auto* const from = array.data();
-            auto* const to = fresh.data();
-            for (std::size_t i = 0; i < count; ++i) to[i] = from[order[i]];
-            array = std::move(fresh);
+        template <class Index, std::size_t... K>
+        void gather(const Index* order, std::size_t count, std::index_sequence<K...>) {
+            std::tuple<detail::aligned_array<Values>...> fresh{detail::aligned_array<Values>(capacity_)...};
+            const auto gather_one = [&](const auto* from, auto* to) {
+                for (std::size_t i = 0; i < count; ++i) to[i] = from[order[i]];
+            };
+            (gather_one(std::as_const(std::get<K>(arrays_)).data(), std::get<K>(fresh).data()), ...);
+            arrays_ = std::move(fresh);
         }
 
         std::tuple<detail::aligned_array<Values>...> arrays_;

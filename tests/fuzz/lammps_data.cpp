@@ -25,9 +25,9 @@ using grains = tsubu::fields<tsubu::id, tsubu::species, tsubu::position<2, float
 using atoms = tsubu::fields<tsubu::id, tsubu::species, tsubu::position<3>, tsubu::mass>;
 
 template <class Newton, class Store>
-std::string text_of(const Store& store, const tsubu::lammps_header& top, tsubu::atom_style style) {
+std::string text_of(const Store& store, const tsubu::lammps_header& top) {
     std::string text;
-    tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; }, {.style = style, .chunk = 64}, Newton{});
+    tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; }, {.chunk = 64}, Newton{});
     out.write(store, top);
     return text;
 }
@@ -51,11 +51,11 @@ void examine(std::string_view input, bool lenient) {
     // Grains that weigh differently, in a store without radius: there is no style for them.
     if (std::is_same_v<Fields, atoms> && tsubu::is_sphere(style)) return;
     if (top.masses.empty()) top.atoms.types = 0;  // a header may promise types that nothing has
-    const auto first = text_of<Newton>(store, top, style);
+    const auto first = text_of<Newton>(store, top);
     tsubu::particle_store<Fields> again;
     tsubu::lammps_reader<tsubu::memory_source> file(tsubu::memory_source(first), {.velocities_may_lack = true});
     file.template read<Newton>(again);
-    if (text_of<Newton>(again, file.header(), style) != first) {
+    if (text_of<Newton>(again, file.header()) != first) {
         std::fputs(first.c_str(), stderr);
         std::abort();
     }

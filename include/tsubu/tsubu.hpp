@@ -9,6 +9,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/executor.hpp>
 #include <tsubu/core/expects.hpp>
+#include <tsubu/core/fixed_string.hpp>
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
@@ -48,3 +49,39 @@
 #include <tsubu/domain/subdomain.hpp>
 #include <tsubu/domain/triclinic_box.hpp>
 #include <tsubu/domain/wedge.hpp>
+
+#include <tsubu/store/aos.hpp>
+#include <tsubu/store/aosoa.hpp>
+#include <tsubu/store/bonus_of.hpp>
+#include <tsubu/store/column.hpp>
+#include <tsubu/store/concepts.hpp>
+#include <tsubu/store/curve.hpp>
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/growth.hpp>
+#include <tsubu/store/list_of.hpp>
+#include <tsubu/store/pack.hpp>
+#include <tsubu/store/particle_range.hpp>
+#include <tsubu/store/particle_store.hpp>
+#include <tsubu/store/soa.hpp>
+#include <tsubu/store/standard_fields.hpp>
+#include <tsubu/store/term.hpp>
+#include <tsubu/store/topology.hpp>
+
+#include <tsubu/io/atom_style.hpp>
+#include <tsubu/io/atomic_file.hpp>
+#include <tsubu/io/byte_source.hpp>
+#include <tsubu/io/checksum.hpp>
+#include <tsubu/io/complete_header.hpp>
+#include <tsubu/io/file_error.hpp>
+#include <tsubu/io/file_sink.hpp>
+#include <tsubu/io/lammps_data_file.hpp>
+#include <tsubu/io/lammps_fields.hpp>
+#include <tsubu/io/lammps_header.hpp>
+#include <tsubu/io/lammps_options.hpp>
+#include <tsubu/io/lammps_reader.hpp>
+#include <tsubu/io/lammps_writer.hpp>
+#include <tsubu/io/restart.hpp>
+#include <tsubu/io/restart_state.hpp>
+#include <tsubu/io/text_sink.hpp>
+#include <tsubu/io/text_source.hpp>
+#include <tsubu/io/vtk.hpp>

@@ -4,9 +4,11 @@
 #
 #   need "what it is" "Debian packages, best first, separated by |" "remedy elsewhere" command...
 #       notes the thing as missing unless the command succeeds
+#   want ...
+#       likewise, for what can be done without
 #   provide
 #       on Debian and Ubuntu says what it will install, installs it, and looks again; elsewhere, or with
-#       install=no, names each missing thing and how to get it. Exits with 3 if something stays missing.
+#       install=no, names each missing thing and how to get it. Exits with 3 if something needed stays missing.
 
 install=${install:-yes}
 missing=()
@@ -24,11 +26,13 @@ value_follows() { # an option that needs a value, and all that follows it
 }
 at_least() { [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]; } # wanted, found
 
-need() {
-    local what=$1 packages=$2 remedy=$3
-    shift 3
-    "$@" >/dev/null 2>&1 || missing+=("$what"$'\t'"$packages"$'\t'"$remedy")
+note_missing() { # needed or wanted, and what need and want take
+    local necessity=$1 what=$2 packages=$3 remedy=$4
+    shift 4
+    "$@" >/dev/null 2>&1 || missing+=("$what"$'\t'"$packages"$'\t'"$remedy"$'\t'"$necessity")
 }
+need() { note_missing needed "$@"; }
+want() { note_missing wanted "$@"; }
 
 # Tests for need.
 cmake_is_new_enough() { have cmake && at_least 3.25 "$(cmake --version | sed -n '1s/[^0-9]*//p')"; }
@@ -72,44 +76,71 @@ first_available() { # a|b|c -> the first that apt knows; nothing if it knows non
     done
 }
 
+count_missing() { # needed or wanted
+    local entry count=0
+    for entry in ${missing[@]+"${missing[@]}"}; do
+        [ "${entry##*$'\t'}" != "$1" ] || count=$((count + 1))
+    done
+    printf '%s' "$count"
+}
 say_missing() {
-    local entry what packages remedy
+    local entry what packages remedy necessity
     say "$program: missing on this machine:"
     for entry in "${missing[@]}"; do
-        IFS=$'\t' read -r what packages remedy <<<"$entry"
-        say "  - $what: $remedy (Debian, Ubuntu: ${packages//|/ or })"
+        IFS=$'\t' read -r what packages remedy necessity <<<"$entry"
+        [ "$necessity" = needed ] || necessity="what uses it is left out without"
+        say "  - $what: $remedy (Debian, Ubuntu: ${packages//|/ or }; $necessity)"
     done
 }
+give_up_if_needed() { # why: exits if something needed is missing; else goes on without the rest
+    [ "$(count_missing needed)" = 0 ] || die 3 "$1"
+}
+install_packages() { # needed or wanted
+    local entry what packages remedy necessity package chosen=()
+    for entry in "${missing[@]}"; do
+        IFS=$'\t' read -r what packages remedy necessity <<<"$entry"
+        [ "$necessity" = "$1" ] || continue
+        package=$(first_available "$packages")
+        [ -n "$package" ] || continue # apt does not know it; what another package brings may do
+        case " ${chosen[*]-} " in *" $package "*) ;; *) chosen+=("$package") ;; esac
+    done
+    [ ${#chosen[@]} -gt 0 ] || return 0
+    say "$program: installing with apt-get: ${chosen[*]}"
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}" \
+        </dev/null || say "$program: apt-get could not install: ${chosen[*]}"
+}
 
-provide() { # the function that calls need for everything
-    local list_needs=$1 entry what packages remedy package as_root=() wanted=()
+provide() { # the function that calls need and want for everything
+    local list_needs=$1 as_root=()
     missing=()
     "$list_needs"
     [ ${#missing[@]} -gt 0 ] || return 0
     say_missing
-    [ "$install" = yes ] || die 3 "nothing installed, as asked; install the above and start again"
-    on_debian || die 3 "this system has no apt; install the above and start again"
+    local hint="install the above and start again"
+    if [ "$install" != yes ]; then
+        give_up_if_needed "nothing installed, as asked; $hint"
+        return 0
+    fi
+    if ! on_debian; then
+        give_up_if_needed "this system has no apt; $hint"
+        return 0
+    fi
     if [ "$(id -u)" -ne 0 ]; then
-        have sudo || die 3 "not root, and there is no sudo; install the above and start again"
+        if ! have sudo; then
+            give_up_if_needed "not root, and there is no sudo; $hint"
+            return 0
+        fi
         as_root=(sudo)
     fi
     "${as_root[@]}" apt-get update -qq || say "$program: apt-get update failed; trying with the lists that are there"
-    for entry in "${missing[@]}"; do
-        IFS=$'\t' read -r what packages remedy <<<"$entry"
-        package=$(first_available "$packages")
-        [ -n "$package" ] || continue # apt does not know it; what another package brings may do
-        case " ${wanted[*]-} " in *" $package "*) ;; *) wanted+=("$package") ;; esac
-    done
-    [ ${#wanted[@]} -gt 0 ] || die 3 "the package lists of this system have none of it; install the above and start again"
-    say "$program: installing with apt-get: ${wanted[*]}"
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${wanted[@]}" \
-        </dev/null || die 3 "apt-get could not install: ${wanted[*]}"
+    install_packages needed
+    install_packages wanted
     hash -r
     missing=()
     "$list_needs"
     [ ${#missing[@]} -gt 0 ] || return 0
     say_missing
-    die 3 "still missing after the installation"
+    give_up_if_needed "still missing after the installation"
 }
 
 jobs_of_this_machine() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || printf 2; }

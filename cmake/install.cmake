@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Install rules: the headers of both targets, one export set for each, so that MPI is searched for only when asked.
+# Install rules: the headers of all targets, one export set for each, so that MPI and HDF5 are searched for only when
+# asked.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -9,6 +10,10 @@ install(EXPORT tsubu-core NAMESPACE tsubu:: DESTINATION "${package_dir}")
 if(TSUBU_WITH_MPI)
     install(TARGETS tsubu_mpi EXPORT tsubu-mpi FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     install(EXPORT tsubu-mpi NAMESPACE tsubu:: DESTINATION "${package_dir}")
+endif()
+if(TSUBU_WITH_HDF5)
+    install(TARGETS tsubu_hdf5 EXPORT tsubu-hdf5 FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    install(EXPORT tsubu-hdf5 NAMESPACE tsubu:: DESTINATION "${package_dir}")
 endif()
 
 configure_package_config_file(cmake/tsubu-config.cmake.in tsubu-config.cmake INSTALL_DESTINATION "${package_dir}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DCONSUMER=subdirectory|installed [-DCOMPONENT=mpi] -D... -P run.cmake: installs if needed, builds a consumer with
+# cmake -DCONSUMER=subdirectory|installed [-DCOMPONENT=mpi|hdf5] -D... -P run.cmake: installs if needed, builds a consumer with
 # strict warnings as errors, and runs it.
 cmake_minimum_required(VERSION 3.25)
 set(work "${BUILD}/tests/package/${CONSUMER}${COMPONENT}")
@@ -18,6 +18,9 @@ if(CONSUMER STREQUAL "installed")
     if(NOT WITH_MPI)
         list(FILTER headers EXCLUDE REGEX "tsubu/(mpi\\.hpp|comm/)")
     endif()
+    if(NOT WITH_HDF5)
+        list(FILTER headers EXCLUDE REGEX "tsubu/(hdf5\\.hpp|io/(h5md|detail/hdf5))")
+    endif()
     list(REMOVE_ITEM headers ${installed})
     if(headers)
         message(FATAL_ERROR "not installed: ${headers}")
@@ -31,7 +34,7 @@ run("${CMAKE_COMMAND}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DS
 run("${CMAKE_COMMAND}" --build "${work}/build")
 run("${work}/build/consumer")
 if(COMPONENT)
-    run("${work}/build/consumer_mpi")
+    run("${work}/build/consumer_${COMPONENT}")
 endif()
 if(CONSUMER STREQUAL "subdirectory")
     run("${CMAKE_COMMAND}" --install "${work}/build" --prefix "${prefix}")

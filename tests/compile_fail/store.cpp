@@ -19,6 +19,10 @@ using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"label", std::str
 using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"labels", tsubu::list_of<std::string>>{}>;
 #elif CASE == 6
 using set = tsubu::fields<tsubu::id, temperature, 3>;
+#elif CASE == 9
+using set = tsubu::fields<tsubu::id, temperature, tsubu::id>;
+#elif CASE == 10
+using set = tsubu::fields<tsubu::id, temperature, tsubu::bonds>;
 #else
 using set = tsubu::fields<tsubu::id, temperature>;
 #endif
@@ -35,6 +39,9 @@ int main() {
 #elif CASE == 7
     const auto& read = g;
     read[temperature][0] = 300;
+#elif CASE == 10
+    const auto& read = g;
+    const decltype(g)::record held = read[0];
 #elif CASE == 8
     tsubu::term<5> one;
 #else

@@ -19,7 +19,8 @@ inline constexpr tsubu::field<"history", tsubu::list_of<double>> history{};
 inline constexpr tsubu::field<"shape", tsubu::bonus_of<tsubu::vec<3>>> shape{};
 inline constexpr tsubu::field<"flag", std::byte> flag{};
 
-using flat = tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::velocity<2>, tsubu::force<2>, tsubu::radius, tsubu::mass>;
+using flat =
+    tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::velocity<2>, tsubu::force<2>, tsubu::radius, tsubu::mass>;
 using rich = tsubu::fields<flag, tsubu::id, tsubu::species, tsubu::position<3, float>, tsubu::bonds, history, shape>;
 using one = tsubu::fields<tsubu::radius>;
 
@@ -56,7 +57,8 @@ template struct tsubu::topology<tsubu::impropers, tsubu::newton_on>;
 
 // A frictionless set in two dimensions: no third component, no spin, no torque, no history; and no byte for them.
 static_assert(std::is_same_v<decltype(tsubu::position<2>)::value_type, tsubu::vec<2>>);
-static_assert(sizeof(decltype(tsubu::velocity<2>)::value_type) == 16 && sizeof(decltype(tsubu::force<2>)::value_type) == 16);
+static_assert(sizeof(decltype(tsubu::velocity<2>)::value_type) == 16 &&
+              sizeof(decltype(tsubu::force<2>)::value_type) == 16);
 static_assert(!flat::has<decltype(tsubu::position<3>)> && !flat::has<decltype(tsubu::velocity<3>)> &&
               !flat::has<decltype(tsubu::angular_velocity<2>)> && !flat::has<decltype(tsubu::torque<2>)> &&
               !flat::has<decltype(history)>);
@@ -69,6 +71,13 @@ static_assert(is_sum_of_fields<tsubu::soa> && is_sum_of_fields<tsubu::aos> && is
 template <std::size_t N>
 using flat_block = tsubu::detail::record<N, std::int64_t, tsubu::vec<2>, tsubu::vec<2>, tsubu::vec<2>, double, double>;
 static_assert(flat_block<1>::size == 72 && flat_block<16>::size == 16 * 72);
+
+// What a program would write by hand.
+struct disc {
+    std::int64_t t;
+    double x[2], v[2], f[2], r, m;
+};
+static_assert(sizeof(tsubu::particle_store<flat>::record) == sizeof(disc) && flat_block<1>::size == sizeof(disc));
 
 // A list takes 16 bytes, a value that only some particles have 4.
 static_assert(tsubu::particle_store<tsubu::fields<history>>::bytes_per_particle == 16);
@@ -89,4 +98,11 @@ static_assert(std::is_same_v<tsubu::fields_every_step<flat>, tsubu::fields<tsubu
 static_assert(std::random_access_iterator<decltype(tsubu::particle_store<flat>{}[tsubu::radius].begin())>);
 static_assert(std::random_access_iterator<decltype(tsubu::particle_store<flat, tsubu::aos>{}[tsubu::radius].begin())>);
 static_assert(std::is_nothrow_move_constructible_v<tsubu::particle_store<rich>> &&
-              std::is_nothrow_move_assignable_v<tsubu::particle_store<rich>>);
+              std::is_nothrow_move_assignable_v<tsubu::particle_store<rich>> &&
+              std::is_nothrow_default_constructible_v<tsubu::particle_store<rich>>);
+
+// What std::sort holds of a particle owns its lists: it moves, and is not copied. Without lists it is copied too.
+static_assert(std::is_nothrow_move_constructible_v<tsubu::particle_store<rich>::record> &&
+              std::is_nothrow_move_assignable_v<tsubu::particle_store<rich>::record> &&
+              !std::is_copy_constructible_v<tsubu::particle_store<rich>::record>);
+static_assert(std::is_copy_constructible_v<tsubu::particle_store<flat>::record>);

@@ -51,12 +51,12 @@ struct aosoa {
             return place<K>().at(i);
         }
         template <std::size_t K>
-        [[nodiscard]] blocked_place<value<K>, sizeof(block), N> place() noexcept {
-            return {reinterpret_cast<std::byte*>(blocks_.data()) + record::offset[K]};
+        [[nodiscard]] blocked_place<value<K>, sizeof(block), N, record::offset[K]> place() noexcept {
+            return {reinterpret_cast<std::byte*>(blocks_.data())};
         }
         template <std::size_t K>
-        [[nodiscard]] blocked_place<const value<K>, sizeof(block), N> place() const noexcept {
-            return {reinterpret_cast<const std::byte*>(blocks_.data()) + record::offset[K]};
+        [[nodiscard]] blocked_place<const value<K>, sizeof(block), N, record::offset[K]> place() const noexcept {
+            return {reinterpret_cast<const std::byte*>(blocks_.data())};
         }
         void reallocate(std::size_t capacity, std::size_t kept) {
             buffer<block> fresh((capacity + N - 1) / N, {});

@@ -16,8 +16,8 @@
 
 namespace tsubu {
 
-/// The type of a field that only some particles have: an index per particle, and a dense array of the values of those that
-/// have one, each with its particle.
+/// The type of a field that only some particles have: an index per particle, and a dense array of the values of those
+/// that have one, each with its particle.
 ///
 ///     inline constexpr tsubu::field<"shape", tsubu::bonus_of<ellipsoid>> shape{};
 ///     g[shape][i].emplace({1, 2, 3});
@@ -54,11 +54,15 @@ public:
     [[nodiscard]] std::span<const index_t> owners() const noexcept { return {owners_.data(), size_}; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return values_.memory_bytes() + owners_.memory_bytes(); }
 
+    /// For one value more: emplace does not throw then. Strong guarantee.
+    void make_room() {
+        if (size_ == values_.size()) grow();
+    }
     /// Strong guarantee.
     void emplace(bonus_place& place, index_t owner, const Value& value) {
         const auto kept = value;  // it may lie in this pool
         if (place.at == absent) {
-            if (size_ == values_.size()) grow();
+            make_room();
             place.at = static_cast<index_t>(size_++);
             owners_[static_cast<std::size_t>(place.at)] = owner;
         }
@@ -107,33 +111,40 @@ class bonus_reference {
     using value_type = std::conditional_t<IsConst, const Value, Value>;
 
 public:
-    bonus_reference(pool& of, PlaceOf places, std::size_t i) noexcept : pool_(&of), places_(places), i_(i) {}
+    bonus_reference(pool& of, PlaceOf places, std::size_t i, lease until) noexcept
+        : pool_(&of), places_(places), i_(i), until_(until) {}
 
-    [[nodiscard]] bool has_value() const noexcept { return places_.at(i_).at != absent; }
+    [[nodiscard]] bool has_value() const noexcept { return place().at != absent; }
     explicit operator bool() const noexcept { return has_value(); }
     [[nodiscard]] value_type& operator*() const noexcept {
         TSUBU_EXPECTS(has_value(), "this particle has no value of the field; ask has_value() first");
-        return pool_->value(places_.at(i_));
+        return pool_->value(place());
     }
     [[nodiscard]] value_type* operator->() const noexcept { return &**this; }
     /// Gives the particle a value, or another. Strong guarantee.
     void emplace(const Value& value) const
         requires(!IsConst)
     {
-        pool_->emplace(places_.at(i_), static_cast<index_t>(i_), value);
+        pool_->emplace(place(), static_cast<index_t>(i_), value);
     }
     /// Takes it away: the last value moves into its place.
     void reset() const noexcept
         requires(!IsConst)
     {
-        pool_->reset(places_.at(i_),
+        pool_->reset(place(),
                      [&](index_t owner) -> auto& { return places_.at(static_cast<std::size_t>(owner)); });
     }
 
 private:
+    [[nodiscard]] auto& place() const noexcept {
+        until_.check();
+        return places_.at(i_);
+    }
+
     pool* pool_;
     PlaceOf places_;
     std::size_t i_;
+    [[no_unique_address]] lease until_;
 };
 
 /// The values of a field that only some particles have; by particle, or all that there are.
@@ -149,11 +160,17 @@ public:
     [[nodiscard]] bonus_reference<Value, Place, IsConst> operator[](std::size_t i) const noexcept {
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
-        return {*pool_, place_, first_ + i};
+        return {*pool_, place_, first_ + i, until_};
     }
     /// The values that there are, in no order; owners()[k] is the particle of values()[k].
-    [[nodiscard]] auto values() const noexcept { return pool_->values(); }
-    [[nodiscard]] std::span<const index_t> owners() const noexcept { return pool_->owners(); }
+    [[nodiscard]] auto values() const noexcept {
+        until_.check();
+        return pool_->values();
+    }
+    [[nodiscard]] std::span<const index_t> owners() const noexcept {
+        until_.check();
+        return pool_->owners();
+    }
     [[nodiscard]] bonus_column part(std::size_t first, std::size_t count) const noexcept {
         TSUBU_EXPECTS(first + count <= count_, "a part that reaches beyond the column; ask size()");
         auto some = *this;

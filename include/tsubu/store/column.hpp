@@ -20,15 +20,16 @@ namespace tsubu {
 class lease {
 public:
     lease() = default;
-    explicit lease(const std::uint64_t* now) noexcept : now_(now), then_(*now) {}
+    /// Of a store that holds no memory there is nothing to outlive: nullptr.
+    explicit lease(const std::uint64_t* now) noexcept : now_(now), then_(now == nullptr ? 0 : *now) {}
     void check() const noexcept {
         TSUBU_EXPECTS(now_ == nullptr || *now_ == then_,
                       "this view of a store is older than its memory; take a new one after particles were added");
     }
 
 private:
-    const std::uint64_t* now_ = nullptr;
-    std::uint64_t then_ = 0;
+    [[maybe_unused]] const std::uint64_t* now_ = nullptr;  // unused where nothing is checked
+    [[maybe_unused]] std::uint64_t then_ = 0;
 };
 
 /// One value after the other: what soa has, and std::span is made of.
@@ -48,15 +49,17 @@ struct strided_place {
     }
     [[nodiscard]] strided_place from(std::size_t i) const noexcept { return {start + i * Stride}; }
 };
-/// N values in each block of a given size: what aosoa<N> has.
-template <class Value, std::size_t Block, std::size_t N>
+/// N values in each block of a given size, `Offset` bytes from where it begins: what aosoa<N> has.
+template <class Value, std::size_t Block, std::size_t N, std::size_t Offset>
 struct blocked_place {
     using byte = std::conditional_t<std::is_const_v<Value>, const std::byte, std::byte>;
     byte* start = nullptr;
     std::size_t first = 0;
     [[nodiscard, gnu::always_inline]] Value& at(std::size_t i) const noexcept {
         const auto j = first + i;
-        return reinterpret_cast<Value*>(start + j / N * Block)[j % N];
+        // As arrays of arrays: out of a sum of bytes g++ makes one product, and computes it anew for each field.
+        auto& block = reinterpret_cast<byte(*)[Block]>(start)[j / N];
+        return (*reinterpret_cast<Value(*)[N]>(block + Offset))[j % N];
     }
     [[nodiscard]] blocked_place from(std::size_t i) const noexcept { return {start, first + i}; }
 };

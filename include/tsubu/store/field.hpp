@@ -77,6 +77,10 @@ struct fields {
     static_assert((particle_field<std::remove_cv_t<decltype(Fields)>> && ...),
                   "tsubu::fields takes field objects, such as tsubu::id and tsubu::position<3>");
     static constexpr std::size_t count = sizeof...(Fields);
+    template <class Field>
+    static constexpr std::size_t times =
+        (std::size_t{0} + ... + (std::is_same_v<decltype(Fields), Field> ? std::size_t{1} : std::size_t{0}));
+    static_assert(((times<decltype(Fields)> == 1) && ...), "tsubu::fields names a field twice; name each once");
 
     template <class Field>
     static constexpr bool has = (std::is_same_v<std::remove_cv_t<decltype(Fields)>, std::remove_cv_t<Field>> || ...);

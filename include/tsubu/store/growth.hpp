@@ -30,7 +30,8 @@ inline constexpr std::uint64_t bonus_block = 8192;
                                    "ask for fewer");
     return blocks * block;
 }
-/// The least multiple of a block that holds n: 0 -> 0, 16384 -> 16384, 16385 -> 32768. @throws limit_error past 64 bits.
+/// The least multiple of a block that holds n: 0 -> 0, 16384 -> 16384, 16385 -> 32768.
+/// @throws limit_error past 64 bits.
 [[nodiscard]] constexpr std::uint64_t round_up(std::uint64_t n, std::uint64_t block = store_block) {
     return n % block == 0 ? n : next_block(n, block);
 }
@@ -44,7 +45,8 @@ concept growth_policy = std::semiregular<Growth> && requires(const Growth& growt
 
 /// Half as much again, in whole blocks: n appends copy fewer than 3 n elements in all.
 ///
-/// Concept: growth_policy. Choose it when particles come and go. Do not when memory must stay within a block of the need.
+/// Concept: growth_policy. Choose it when particles come and go. Do not when memory must stay within a block of
+/// the need.
 struct geometric_growth {
     [[nodiscard]] constexpr std::uint64_t next(std::uint64_t capacity, std::uint64_t needed) const {
         return round_up((std::max)({needed, capacity + capacity / 2, capacity + 1}));

@@ -15,6 +15,7 @@
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <type_traits>  // std::is_trivially_copyable_v
+#include <utility>      // std::exchange, std::move
 
 namespace tsubu {
 
@@ -25,9 +26,12 @@ namespace tsubu {
 //        1         2    1    4            0     2         6
 //        2         6    3    4
 //
-// A list that is full moves to the end of what is used, into twice the room. The stretch that it leaves is garbage, which
-// compaction drops: when more than half of what is used is garbage, at the next operation of the store that touches rows.
-// Since room doubles, garbage is less than the room of the lists that left it.
+// A list that is full moves to the end of what is used, into twice the room. The stretch that it leaves is garbage,
+// which compaction drops: when more than half of what is used is garbage, at the next operation of the store that
+// touches rows. Since room doubles, garbage is less than the room of the lists that left it.
+//
+// No two particles share a stretch. An algorithm that moves particles takes a list out of its particle and gives it to
+// another; in between the stretch counts as garbage, so that one that is never given is dropped like any other.
 
 /// The type of a field with as many values as each particle has.
 ///
@@ -77,6 +81,25 @@ public:
         garbage_ += list.room;
         list = {};
     }
+    /// Makes the list what another is, which may lie in this pool. Strong guarantee.
+    void copy(list_extent& to, const list_extent& from, const list_pool& of) {
+        reserve(to, from.size);
+        std::copy_n(of.at(from), from.size, at(to));
+        to.size = from.size;
+    }
+    /// The particle has an empty list then.
+    [[nodiscard]] list_extent take(list_extent& list) noexcept {
+        garbage_ += list.room;
+        return std::exchange(list, {});
+    }
+    /// Precondition: `taken` was taken in this era, and was not given yet.
+    void give(list_extent& to, const list_extent& taken) noexcept {
+        release(to);
+        garbage_ -= taken.room;
+        to = taken;
+    }
+    /// Changes when lists that have been taken are dropped.
+    [[nodiscard]] std::uint64_t era() const noexcept { return era_; }
     [[nodiscard]] bool wants_compaction() const noexcept { return garbage_ > used_ / 2 && used_ > 1024; }
     /// each(visit) calls visit(extent) for every list there is, in the order that is wanted.
     template <class Each>
@@ -94,8 +117,12 @@ public:
         elements_ = std::move(fresh);
         used_ = at;
         garbage_ = 0;
+        ++era_;
     }
-    void clear() noexcept { used_ = garbage_ = 0; }
+    void clear() noexcept {
+        used_ = garbage_ = 0;
+        ++era_;
+    }
 
 private:
     void grow(std::size_t needed) {
@@ -107,12 +134,60 @@ private:
     buffer<Element> elements_;
     std::size_t used_ = 0;
     std::size_t garbage_ = 0;
+    std::uint64_t era_ = 0;
+};
+
+/// The list of a particle that an algorithm holds outside of the store: its only owner. It can be moved, and read.
+template <class Element>
+class held_list {
+public:
+    held_list(list_pool<Element>& of, list_extent taken) noexcept : pool_(&of), list_(taken), era_(of.era()) {}
+    held_list(held_list&& other) noexcept
+        : pool_(other.pool_), list_(std::exchange(other.list_, {})), era_(other.era_) {}
+    held_list& operator=(held_list&& other) noexcept {
+        pool_ = other.pool_;
+        list_ = std::exchange(other.list_, {});
+        era_ = other.era_;
+        return *this;
+    }
+    ~held_list() = default;
+
+    [[nodiscard]] std::size_t size() const noexcept { return list_.size; }
+    [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+    [[nodiscard]] const Element* begin() const noexcept { return pool().at(list_); }
+    [[nodiscard]] const Element* end() const noexcept { return begin() + size(); }
+    [[nodiscard]] const Element& operator[](std::size_t k) const noexcept {
+        TSUBU_EXPECTS(k < size(), "no element with this number in the list; ask size()");
+        return begin()[k];
+    }
+    [[nodiscard]] std::span<const Element> span() const noexcept { return {begin(), size()}; }
+    /// Room in `to` for a copy: what follows does not throw. Strong guarantee.
+    void reserve(list_pool<Element>& of, list_extent& to) const { of.reserve(to, size()); }
+    /// Gives it away, or a copy to another store.
+    void give(list_pool<Element>& of, list_extent& to) {
+        if (pool_ != &of) return copy(of, to);
+        TSUBU_EXPECTS(is_there(), "a list was held while the store dropped it; give it back before the store changes");
+        of.give(to, is_there() ? std::exchange(list_, {}) : list_extent{});
+    }
+    void copy(list_pool<Element>& of, list_extent& to) const { of.copy(to, list_, pool()); }
+    [[nodiscard]] bool lies_in(const list_pool<Element>& of) const noexcept { return pool_ == &of; }
+
+private:
+    [[nodiscard]] bool is_there() const noexcept { return list_.room == 0 || era_ == pool_->era(); }
+    [[nodiscard]] const list_pool<Element>& pool() const noexcept {
+        TSUBU_EXPECTS(is_there(), "a list was held while the store dropped it; give it back before the store changes");
+        return *pool_;
+    }
+
+    list_pool<Element>* pool_;
+    list_extent list_;
+    std::uint64_t era_;
 };
 
 }  // namespace detail
 
-/// The list of one particle: a reference, which other lists of the field may end when they grow (its elements move; the
-/// list itself can be asked again).
+/// The list of one particle: a view, which adding particles ends. Its elements move when a list of the field grows:
+/// what begin() and span() gave ends then, and the list can be asked again.
 template <class Element, bool IsConst = false>
 class list_reference {
     using pool = std::conditional_t<IsConst, const detail::list_pool<Element>, detail::list_pool<Element>>;
@@ -120,11 +195,17 @@ class list_reference {
     using value = std::conditional_t<IsConst, const Element, Element>;
 
 public:
-    list_reference(pool& of, extent& list) noexcept : pool_(&of), list_(&list) {}
+    list_reference(pool& of, extent& list, lease until) noexcept : pool_(&of), list_(&list), until_(until) {}
 
-    [[nodiscard]] std::size_t size() const noexcept { return list_->size; }
+    [[nodiscard]] std::size_t size() const noexcept {
+        until_.check();
+        return list_->size;
+    }
     [[nodiscard]] bool empty() const noexcept { return size() == 0; }
-    [[nodiscard]] value* begin() const noexcept { return pool_->at(*list_); }
+    [[nodiscard]] value* begin() const noexcept {
+        until_.check();
+        return pool_->at(*list_);
+    }
     [[nodiscard]] value* end() const noexcept { return begin() + size(); }
     [[nodiscard]] value& operator[](std::size_t k) const noexcept {
         TSUBU_EXPECTS(k < size(), "no element with this number in the list; ask size()");
@@ -136,7 +217,7 @@ public:
         requires(!IsConst)
     {
         const auto kept = element;  // it may lie in this pool
-        pool_->reserve(*list_, size() + 1);
+        reserve(size() + 1);
         begin()[list_->size++] = kept;
     }
     /// The last one moves into its place.
@@ -149,13 +230,21 @@ public:
     void clear() const noexcept
         requires(!IsConst)
     {
+        until_.check();
         list_->size = 0;
+    }
+    /// Room for as many: adding up to there neither throws nor moves elements. Strong guarantee.
+    void reserve(std::size_t count) const
+        requires(!IsConst)
+    {
+        until_.check();
+        pool_->reserve(*list_, count);
     }
     /// New elements are not initialised. Strong guarantee.
     void resize(std::size_t count) const
         requires(!IsConst)
     {
-        pool_->reserve(*list_, count);
+        reserve(count);
         list_->size = static_cast<std::uint32_t>(count);
     }
     /// Strong guarantee. Precondition: the elements do not lie in this store.
@@ -169,6 +258,7 @@ public:
 private:
     pool* pool_;
     extent* list_;
+    [[no_unique_address]] lease until_;
 };
 
 /// The lists of some particles, which can be indexed and walked by number.
@@ -184,7 +274,7 @@ public:
     [[nodiscard]] list_reference<Element, IsConst> operator[](std::size_t i) const noexcept {
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
-        return {*pool_, place_.at(i)};
+        return {*pool_, place_.at(i), until_};
     }
     [[nodiscard]] list_column part(std::size_t first, std::size_t count) const noexcept {
         TSUBU_EXPECTS(first + count <= count_, "a part that reaches beyond the column; ask size()");

@@ -22,8 +22,8 @@
 
 namespace tsubu {
 
-// Words of a particle: first the fields of a fixed size, in the order of the set, then those that vary. Each value begins
-// a word, and what it leaves of its last one is 0:
+// Words of a particle: first the fields of a fixed size, in the order of the set, then those that vary. Each value
+// begins a word, and what it leaves of its last one is 0:
 //
 //     | id | x | y | z | radius | contacts: how many | elements ... | shape: 1 or 0 | value if 1 |
 //
@@ -83,8 +83,9 @@ struct packer<fields<F...>> {
         if constexpr (is_list<Field>)
             return words_for(store[std::remove_cv_t<Field>{}][i].span().size_bytes());
         else if constexpr (is_bonus<Field>)
-            return store[std::remove_cv_t<Field>{}][i].has_value() ? words_for(sizeof(typename value<Field>::element_type))
-                                                                     : 0;
+            return store[std::remove_cv_t<Field>{}][i].has_value()
+                       ? words_for(sizeof(typename value<Field>::element_type))
+                       : 0;
         else
             return static_cast<void>(store), static_cast<void>(i), 0;
     }
@@ -105,8 +106,10 @@ struct packer<fields<F...>> {
         }
     }
     template <std::size_t K, class Field, class Column>
-    [[gnu::always_inline]] static void get_fixed(const std::uint64_t* from, const Column& column, std::size_t i) noexcept {
-        if constexpr (is_fixed<Field>) std::memcpy(static_cast<void*>(&column[i]), from + place[K], sizeof(value<Field>));
+    [[gnu::always_inline]] static void get_fixed(const std::uint64_t* from, const Column& column,
+                                                 std::size_t i) noexcept {
+        if constexpr (is_fixed<Field>)
+            std::memcpy(static_cast<void*>(&column[i]), from + place[K], sizeof(value<Field>));
     }
     /// @return false if the words end before the value does, or say what cannot be.
     template <class Field, class Column>
@@ -117,7 +120,7 @@ struct packer<fields<F...>> {
             using element = typename value<Field>::element_type;
             if (left == 0) return false;
             const auto count = *from++;
-            if (count > (left - 1) * 8 / sizeof(element) || words_for(count * sizeof(element)) > left - 1) return false;
+            if (count > (left - 1) * 8 / sizeof(element)) return false;
             const auto list = column[i];
             list.resize(static_cast<std::size_t>(count));
             if (count != 0) std::memcpy(static_cast<void*>(list.begin()), from, list.span().size_bytes());
@@ -198,7 +201,8 @@ std::size_t pack(const Store& store, fields<F...> set, std::span<const index_t> 
 /// @return the words read.
 /// @throws input_error if the words end too early; rows before the one that is not whole are read then.
 template <auto... F, class Store>
-std::size_t unpack(Store& store, fields<F...>, std::size_t first, std::size_t count, std::span<const std::uint64_t> in) {
+std::size_t unpack(Store& store, fields<F...>, std::size_t first, std::size_t count,
+                   std::span<const std::uint64_t> in) {
     static_assert((Store::template has<decltype(F)> && ...), "the store lacks a field that is to be unpacked");
     TSUBU_EXPECTS(first + count <= store.size(), "these particles do not exist; add_owned or add_ghosts first");
     auto i = first;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tsubu/core/expects.hpp>
+#include <tsubu/store/column.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <compare>      // std::strong_ordering
@@ -11,14 +12,21 @@
 #include <iterator>     // std::random_access_iterator_tag
 #include <tuple>        // std::get, std::tuple
 #include <type_traits>  // std::is_const_v, std::remove_const_t
-#include <utility>      // std::exchange, std::index_sequence
+#include <utility>      // std::exchange, std::index_sequence, std::move
 
 namespace tsubu {
 
-/// All that lies in memory for one particle: what std::sort and its like hold while they move particles.
-template <class Fields, class... Values>
+template <class Store>
+class particle_reference;
+
+/// One particle outside of its store: what std::sort and its like hold while they move particles. Made from an rvalue
+/// it takes what lies in pools (lists, values that only some have) away from the particle; else it holds a copy. For as
+/// long as one algorithm lasts: to keep a particle, pack it.
+template <class Fields, class... Held>
 struct particle_record {
-    std::tuple<Values...> values;
+    template <class Store>
+    particle_record(particle_reference<Store> particle)  // by value: see detail::move_mark
+        : values(held(particle, std::index_sequence_for<Held...>{})) {}
 
     template <particle_field Field>
         requires(Fields::template has<Field>)
@@ -30,49 +38,102 @@ struct particle_record {
     [[nodiscard]] const auto& operator[](Field) const noexcept {
         return std::get<Fields::template place<Field>()>(values);
     }
+
+    std::tuple<Held...> values;
+
+private:
+    template <class Store, std::size_t... K>
+    [[nodiscard]] static std::tuple<Held...> held(const particle_reference<Store>& particle,
+                                                  std::index_sequence<K...>) {
+        return {particle.template held<K>()...};
+    }
 };
 
-/// One particle of a store, all of it: assigning to it assigns its fields, swapping swaps them. It stands for a place, as
-/// the reference of std::vector<bool> does, so std::sort works on particles.
+namespace detail {
+
+/// Tells `*a = std::move(*b)`, which algorithms write to bring particles into an order, from `*a = *b` and
+/// `g[i] = g[j]`, where both are to have the lists afterwards. A parameter that is taken by value is made in place by a
+/// call (*b), and copied from a name, but moved from std::move(*b). Who returns *b for std::move(*b) gets a copy: more
+/// work, and as right.
+template <bool HasPools>
+struct move_mark {
+    static constexpr bool is_moved = false;  // nothing lies in pools: a copy is as good
+};
+template <>
+struct move_mark<true> {
+    move_mark() = default;
+    move_mark(const move_mark&) noexcept {}
+    move_mark(move_mark&&) noexcept : is_moved(true) {}
+    move_mark& operator=(const move_mark&) = delete;
+    ~move_mark() = default;
+    bool is_moved = false;
+};
+
+}  // namespace detail
+
+/// One particle of a store, all of it: a view, which adding particles ends. Assigning to it assigns all fields, lists
+/// included: copied, or given away by std::move. Swapping swaps them. It stands for a place, as the reference of
+/// std::vector<bool> does, so std::sort works on particles.
 ///
-///     std::sort(g.owned().begin(), g.owned().end(), [](const auto& a, const auto& b) { return a[tsubu::id] < b[tsubu::id]; });
+///     const auto mine = g.owned();
+///     std::sort(mine.begin(), mine.end(), [](const auto& a, const auto& b) { return a[tsubu::id] < b[tsubu::id]; });
 template <class Store>
 class particle_reference {
     using store_type = std::remove_const_t<Store>;
     static constexpr bool is_const = std::is_const_v<Store>;
+    static constexpr bool has_pools = store_type::has_pools;
 
 public:
     using record = typename store_type::record;
 
-    particle_reference(Store& store, std::size_t i) noexcept : store_(&store), i_(i) {
+    particle_reference(Store& store, std::size_t i) noexcept : store_(&store), i_(i), until_(store.current_lease()) {
         TSUBU_EXPECTS(i < store.size(), "no particle with this index; indices go from 0 to size() - 1");
     }
     particle_reference(const particle_reference&) = default;
+    particle_reference(particle_reference&&) = default;
+    ~particle_reference() = default;
 
     [[nodiscard]] std::size_t index() const noexcept { return i_; }
     template <particle_field Field>
         requires(store_type::fields_type::template has<Field>)
     [[nodiscard]] decltype(auto) operator[](Field) const noexcept {
+        until_.check();
         return (*store_)[Field{}][i_];
     }
 
-    /// What lies in memory for the particle: a copy, or back again. Lists lie in their pool, and are told of by where.
-    operator record() const noexcept { return values(indices{}); }
-    const particle_reference& operator=(const record& values) const noexcept
+    /// After std::move the other particle has empty lists, else both have the same; they share nothing.
+    /// Strong guarantee.
+    const particle_reference& operator=(particle_reference other) const noexcept(!has_pools)  // see detail::move_mark
         requires(!is_const)
     {
-        set(values, indices{});
+        check();
+        other.check();
+        if (other.mark_.is_moved && store_ == other.store_)
+            store_->move_row(other.i_, i_);
+        else
+            store_->copy_row_of(*other.store_, other.i_, i_);
         return *this;
     }
-    const particle_reference& operator=(const particle_reference& other) const noexcept
+    const particle_reference& operator=(const particle_reference<const store_type>& other) const noexcept(!has_pools)
         requires(!is_const)
     {
-        return *this = static_cast<record>(other);
+        check();
+        other.check();
+        store_->copy_row_of(*other.store_, other.i_, i_);
+        return *this;
     }
-    particle_reference& operator=(const particle_reference& other) noexcept
+    const particle_reference& operator=(record&& values) const noexcept(!has_pools)
         requires(!is_const)
     {
-        static_cast<const particle_reference&>(*this) = static_cast<record>(other);
+        check();
+        store_->put_row(i_, std::move(values));
+        return *this;
+    }
+    const particle_reference& operator=(const record& values) const noexcept(!has_pools)
+        requires(!is_const)
+    {
+        check();
+        store_->put_row(i_, values);
         return *this;
     }
     friend void swap(const particle_reference& a, const particle_reference& b) noexcept
@@ -88,29 +149,37 @@ public:
     }
 
 private:
-    using indices = std::make_index_sequence<store_type::fields_type::count>;
+    template <class Other>
+    friend class particle_reference;
+    template <class Fields, class... Held>
+    friend struct particle_record;
 
+    void check() const noexcept {
+        until_.check();
+        TSUBU_EXPECTS(i_ < store_->size(), "no particle with this index; indices go from 0 to size() - 1");
+    }
     void swap_with(const particle_reference& other) const noexcept
         requires(!is_const)
     {
+        check();
+        other.check();
         TSUBU_EXPECTS(store_ == other.store_, "particles of two stores do not swap; pack one and unpack it there");
         store_->swap_rows(i_, other.i_);
     }
-    template <std::size_t... K>
-    [[nodiscard]] record values(std::index_sequence<K...>) const noexcept {
-        return {{store_->memory_.template at<K>(i_)...}};
-    }
-    template <std::size_t... K>
-    void set(const record& values, std::index_sequence<K...>) const noexcept {
-        ((store_->memory_.template at<K>(i_) = std::get<K>(values.values)), ...);
-        store_->settle_row(i_);
+    template <std::size_t K>
+    [[nodiscard]] auto held() const {
+        check();
+        return store_type::template held_of<K>(*store_, i_, mark_.is_moved);
     }
 
     Store* store_;
     std::size_t i_;
+    [[no_unique_address]] lease until_;
+    [[no_unique_address]] detail::move_mark<has_pools> mark_;
 };
 
-/// Some particles of a store that follow one another: the owned ones, the ghosts, or all.
+/// Some particles of a store that follow one another: the owned ones, the ghosts, or all; a view, which adding
+/// particles ends.
 template <class Store>
 class particle_range {
 public:
@@ -144,7 +213,9 @@ public:
             return static_cast<difference_type>(a.at_) - static_cast<difference_type>(b.at_);
         }
         friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.at_ == b.at_; }
-        friend std::strong_ordering operator<=>(const iterator& a, const iterator& b) noexcept { return a.at_ <=> b.at_; }
+        friend std::strong_ordering operator<=>(const iterator& a, const iterator& b) noexcept {
+            return a.at_ <=> b.at_;
+        }
 
     private:
         Store* store_ = nullptr;
@@ -152,17 +223,25 @@ public:
     };
 
     particle_range(Store& store, std::size_t first, std::size_t count) noexcept
-        : store_(&store), first_(first), count_(count) {}
+        : store_(&store), first_(first), count_(count), until_(store.current_lease()) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    [[nodiscard]] iterator begin() const noexcept { return {*store_, first_}; }
-    [[nodiscard]] iterator end() const noexcept { return {*store_, first_ + count_}; }
-    [[nodiscard]] reference operator[](std::size_t i) const noexcept { return {*store_, first_ + i}; }
+    [[nodiscard]] iterator begin() const noexcept {
+        until_.check();
+        return {*store_, first_};
+    }
+    [[nodiscard]] iterator end() const noexcept { return begin() + static_cast<std::ptrdiff_t>(count_); }
+    [[nodiscard]] reference operator[](std::size_t i) const noexcept {
+        until_.check();
+        TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
+        return {*store_, first_ + i};
+    }
     /// The values of one field, of these particles.
     template <particle_field Field>
         requires(std::remove_const_t<Store>::fields_type::template has<Field>)
     [[nodiscard]] auto operator[](Field) const noexcept {
+        until_.check();
         return (*store_)[Field{}].part(first_, count_);
     }
 
@@ -170,6 +249,7 @@ private:
     Store* store_;
     std::size_t first_;
     std::size_t count_;
+    [[no_unique_address]] lease until_;
 };
 
 }  // namespace tsubu

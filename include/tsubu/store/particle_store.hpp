@@ -19,6 +19,8 @@
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
 #include <memory>       // std::unique_ptr
+#include <new>          // std::bad_alloc
+#include <optional>     // std::optional
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <tuple>        // std::tuple
@@ -29,10 +31,11 @@
 namespace tsubu {
 namespace detail {
 
-/// What lies in memory for a field, and the pool that its lists lie in.
+/// What lies in memory for a field, the pool that its lists lie in, and what a particle_record holds of it.
 template <class Value>
 struct stored {
     using type = Value;
+    using held = Value;
     using pool = std::tuple<>;
     static constexpr bool is_list = false;
     static constexpr bool is_bonus = false;
@@ -40,6 +43,7 @@ struct stored {
 template <class Element>
 struct stored<list_of<Element>> {
     using type = list_extent;
+    using held = held_list<Element>;
     using pool = list_pool<Element>;
     static constexpr bool is_list = true;
     static constexpr bool is_bonus = false;
@@ -47,6 +51,7 @@ struct stored<list_of<Element>> {
 template <class Value>
 struct stored<bonus_of<Value>> {
     using type = bonus_place;
+    using held = std::optional<Value>;
     using pool = bonus_pool<Value>;
     static constexpr bool is_list = false;
     static constexpr bool is_bonus = true;
@@ -64,17 +69,20 @@ class particle_store;
 ///     for (auto& r : g[tsubu::radius]) r *= 2;
 ///     for (auto grain : g.owned()) grain[tsubu::position<3>][2] += 1;
 ///
-/// Columns, ranges and references are views: adding particles may end them, which debug builds tell where they are used.
+/// Columns, ranges and references are views: adding particles may end them, which debug builds tell where they
+/// are used.
 ///
 /// @tparam Fields  fields<...>
 /// @tparam Layout  a particle_layout: soa, aos or aosoa<N>; a program is the same for all.
 /// @tparam Growth  a growth_policy.
 ///
 /// Invariant:   owned_count() <= size() <= capacity(), and size() < 2^31.
-/// Invalidates: adding particles, reserve and permute end all views; removing ends those of removed particles.
+/// Invalidates: adding particles, reserve and permute end all views; removing ends those of removed particles; a moved
+///              store takes its views along, one that is assigned to ends its own.
 /// Threads:     many readers, or one writer; different particles may be written by different threads.
 template <auto... F, class Layout, class Growth>
 class particle_store<fields<F...>, Layout, Growth> {
+    static_assert(fields<F...>::count == sizeof...(F));  // first of all, what fields says of its arguments
     using memory = typename Layout::template memory<
         typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
     using pools = std::tuple<typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::pool...>;
@@ -92,27 +100,32 @@ public:
     using const_reference = particle_reference<const particle_store>;
     using range = particle_range<particle_store>;
     using const_range = particle_range<const particle_store>;
-    /// All that lies in memory for one particle; lists lie in their pool. A value for std::sort and its like.
+    /// A particle that std::sort and its like hold outside of the store.
     using record = particle_record<
-        fields_type, typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
+        fields_type, typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::held...>;
     /// The sum of the sizes of the fields [bytes]; of a list what says where it lies.
     static constexpr std::size_t bytes_per_particle =
-        (std::size_t{0} + ... + sizeof(typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type));
+        (std::size_t{0} + ... +
+         sizeof(typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type));
     template <class Field>
     static constexpr bool has = fields_type::template has<Field>;
 
     particle_store() = default;
     explicit particle_store(Growth growth) : growth_(growth) {}
     particle_store(const particle_store& other)
-        : pools_(other.pools_), growth_(other.growth_), memory_(other.memory_), size_(other.size_), owned_(other.owned_) {}
+        : pools_(other.pools_),
+          growth_(other.growth_),
+          memory_(other.memory_),
+          size_(other.size_),
+          owned_(other.owned_),
+          allocation_(other.allocation_ == nullptr ? nullptr : std::make_unique<std::uint64_t>(0)) {}
     particle_store(particle_store&& other) noexcept
         : pools_(std::exchange(other.pools_, pools())),
           growth_(other.growth_),
           memory_(std::exchange(other.memory_, memory())),
           size_(std::exchange(other.size_, 0)),
-          owned_(std::exchange(other.owned_, 0)) {
-        std::swap(allocation_, other.allocation_);
-    }
+          owned_(std::exchange(other.owned_, 0)),
+          allocation_(std::move(other.allocation_)) {}
     particle_store& operator=(particle_store other) noexcept {
         std::swap(pools_, other.pools_);
         std::swap(growth_, other.growth_);
@@ -209,14 +222,14 @@ public:
         refuse_ghosts("particle_store::swap_remove");
         if (i >= owned_)
             detail::raise<input_error>("particle_store::swap_remove",
-                                       "index " + std::to_string(i) + " of " + std::to_string(owned_) + " owned particles",
+                                       "index " + std::to_string(i) + " of " + std::to_string(owned_) +
+                                           " owned particles",
                                        "indices go from 0 to owned_count() - 1");
-        release_row(i);
         const auto last = owned_ - 1;
-        if (i != last) {
-            memory_.copy_row(last, i);  // lists go along: where they lie is in the row
-            settle_row(i);
-        }
+        if (i == last)
+            release_row(i);
+        else
+            move_row(last, i);
         --owned_;
         --size_;
         compact_if_due();
@@ -227,17 +240,18 @@ public:
         refuse_ghosts("particle_store::permute");
         if (order.size() != owned_)
             detail::raise<input_error>("particle_store::permute",
-                                       "an order of " + std::to_string(order.size()) + " for " + std::to_string(owned_) +
-                                           " owned particles",
+                                       "an order of " + std::to_string(order.size()) + " for " +
+                                           std::to_string(owned_) + " owned particles",
                                        "give each index once");
         TSUBU_EXPECTS(is_permutation(order), "this is not a permutation; give each index once");
         memory_.gather(order.data(), owned_);
-        ++*allocation_;
+        if (allocation_ != nullptr) ++*allocation_;
         if constexpr (has_bonus)
             for (std::size_t i = 0; i < owned_; ++i) settle_row(i);
         compact_if_due();
     }
-    /// Drops what lists have left behind, and lays them in the order of the particles.
+    /// Drops what lists have left behind, and lays them in the order of the particles. Done by itself when more than
+    /// half is left behind, if there is memory for it. Strong guarantee.
     void compact() {
         each_list([&]<std::size_t K>(auto& pool) {
             pool.compact([&](auto&& visit) {
@@ -257,14 +271,18 @@ private:
         std::tuple_element_t<K, std::tuple<detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>...>>;
     template <std::size_t K>
     using bonus_place_of = typename kind_of<K>::type;
-    static constexpr bool has_bonus = (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_bonus || ...);
+    static constexpr bool has_bonus =
+        (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_bonus || ...);
+    static constexpr bool has_pools =
+        has_bonus || (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_list || ...);
 
+    [[nodiscard]] lease current_lease() const noexcept { return lease(allocation_.get()); }
     template <class Field, class Self>
     [[nodiscard]] static auto column_of(Self& self) noexcept {
         constexpr auto k = fields_type::template place<Field>();
         using value_type = typename Field::value_type;
         auto place = self.memory_.template place<k>();
-        const lease until(self.allocation_.get());
+        const auto until = self.current_lease();
         constexpr bool is_const = std::is_const_v<Self>;
         if constexpr (detail::stored<value_type>::is_list)
             return list_column<typename value_type::element_type, decltype(place), is_const>(
@@ -273,8 +291,8 @@ private:
             return bonus_column<typename value_type::element_type, decltype(place), is_const>(
                 place, self.size_, std::get<k>(self.pools_), until);
         else
-            return column<std::conditional_t<is_const, const value_type, value_type>, decltype(place)>(place, self.size_,
-                                                                                                      until);
+            return column<std::conditional_t<is_const, const value_type, value_type>, decltype(place)>(
+                place, self.size_, until);
     }
     void refuse_ghosts(const char* where) const {
         if (ghost_count() != 0)
@@ -297,6 +315,7 @@ private:
         return first;
     }
     void reallocate(std::uint64_t wanted) {
+        if (allocation_ == nullptr) allocation_ = std::make_unique<std::uint64_t>(0);
         memory_.reallocate(static_cast<std::size_t>(wanted), size_);
         ++*allocation_;
     }
@@ -315,25 +334,115 @@ private:
     /// What lies outside the row is given up.
     void release_row([[maybe_unused]] std::size_t i) noexcept {
         each_list([&]<std::size_t K>(auto& pool) { pool.release(memory_.template at<K>(i)); });
-        each_bonus([&]<std::size_t K>(auto& pool) {
-            pool.reset(memory_.template at<K>(i), [&](index_t owner) -> bonus_place_of<K>& {
-                return memory_.template at<K>(static_cast<std::size_t>(owner));
-            });
-        });
+        each_bonus([&]<std::size_t K>(auto&) { reset_bonus<K>(i); });
     }
     /// After a row has come here: what lies outside is told where its particle is.
     void settle_row([[maybe_unused]] std::size_t i) noexcept {
-        each_bonus([&]<std::size_t K>(auto& pool) { pool.settle(memory_.template at<K>(i), static_cast<index_t>(i)); });
+        each_bonus([&]<std::size_t K>(auto& pool) {
+            pool.settle(memory_.template at<K>(i), static_cast<index_t>(i));
+        });
     }
     void swap_rows(std::size_t i, std::size_t j) noexcept {
         memory_.swap_rows(i, j);
         settle_row(i);
         settle_row(j);
     }
-    void compact_if_due() {
+    /// Row `to` becomes what row `from` is, which then has empty lists and no values that only some have.
+    void move_row(std::size_t from, std::size_t to) noexcept {
+        if (from == to) return;
+        release_row(to);
+        memory_.copy_row(from, to);  // lists go along: where they lie is in the row
+        each_list([&]<std::size_t K>(auto&) { memory_.template at<K>(from) = {}; });
+        each_bonus([&]<std::size_t K>(auto&) { memory_.template at<K>(from) = {}; });
+        settle_row(to);
+    }
+    /// Row `to` becomes a copy of row `from` of a store, maybe this one. Strong guarantee.
+    void copy_row_of(const particle_store& other, std::size_t from, std::size_t to) noexcept(!has_pools) {
+        if (this == &other && from == to) return;
+        each_list([&]<std::size_t K>(auto& pool) {
+            pool.reserve(memory_.template at<K>(to), other.memory_.template at<K>(from).size);
+        });
+        each_bonus([&]<std::size_t K>(auto& pool) {
+            if (other.memory_.template at<K>(from).at != absent) pool.make_room();
+        });
+        each_value([&]<std::size_t K>() {  // there is memory for all of it: nothing throws
+            auto& value = memory_.template at<K>(to);
+            const auto& wanted = other.memory_.template at<K>(from);
+            if constexpr (kind_of<K>::is_list)
+                std::get<K>(pools_).copy(value, wanted, std::get<K>(other.pools_));
+            else if constexpr (kind_of<K>::is_bonus)
+                put_bonus<K>(to, wanted.at == absent ? nullptr : &std::get<K>(other.pools_).value(wanted));
+            else
+                value = wanted;
+        });
+    }
+    /// What a record holds of value K: taken away from the row if it is moved, else a copy.
+    template <std::size_t K, class Self>
+    [[nodiscard]] static typename kind_of<K>::held held_of(Self& self, std::size_t i, bool is_moved) {
+        auto& value = self.memory_.template at<K>(i);
+        if constexpr (kind_of<K>::is_list) {
+            static_assert(!std::is_const_v<Self>,
+                          "a record needs room for its lists, and this store is const; pack it");
+            auto& pool = std::get<K>(self.pools_);
+            if (is_moved) return {pool, pool.take(value)};
+            detail::list_extent copy;
+            pool.copy(copy, value, pool);
+            return {pool, pool.take(copy)};
+        } else if constexpr (kind_of<K>::is_bonus) {
+            if (value.at == absent) return {};
+            const typename kind_of<K>::held held = std::get<K>(self.pools_).value(value);
+            if constexpr (!std::is_const_v<Self>)
+                if (is_moved) self.template reset_bonus<K>(i);
+            return held;
+        } else {
+            return value;
+        }
+    }
+    /// The row becomes what the record holds: taken away from an rvalue, copied from another. Strong guarantee.
+    template <class Record>
+    void put_row(std::size_t i, Record&& given) noexcept(!has_pools) {
+        each_list([&]<std::size_t K>(auto& pool) {
+            const auto& list = std::get<K>(given.values);
+            if (std::is_const_v<std::remove_reference_t<Record>> || !list.lies_in(pool))
+                list.reserve(pool, memory_.template at<K>(i));
+        });
+        each_bonus([&]<std::size_t K>(auto& pool) {
+            if (std::get<K>(given.values).has_value()) pool.make_room();
+        });
+        each_value([&]<std::size_t K>() {
+            auto& value = memory_.template at<K>(i);
+            auto& held = std::get<K>(given.values);
+            if constexpr (kind_of<K>::is_bonus)
+                put_bonus<K>(i, held.has_value() ? &*held : nullptr);
+            else if constexpr (!kind_of<K>::is_list)
+                value = held;
+            else if constexpr (std::is_const_v<std::remove_reference_t<Record>>)
+                held.copy(std::get<K>(pools_), value);
+            else
+                held.give(std::get<K>(pools_), value);
+        });
+    }
+    /// The row's value becomes the one given, or none.
+    template <std::size_t K, class Value>
+    void put_bonus(std::size_t i, const Value* given) {
+        if (given == nullptr) return reset_bonus<K>(i);
+        std::get<K>(pools_).emplace(memory_.template at<K>(i), static_cast<index_t>(i), *given);
+    }
+    template <std::size_t K>
+    void reset_bonus(std::size_t i) noexcept {
+        std::get<K>(pools_).reset(memory_.template at<K>(i), [&](index_t owner) -> bonus_place_of<K>& {
+            return memory_.template at<K>(static_cast<std::size_t>(owner));
+        });
+    }
+    /// Compaction only saves memory: where there is none for it, the next operation tries again.
+    void compact_if_due() noexcept {
         bool due = false;
         each_list([&]<std::size_t K>(auto& pool) { due = due || pool.wants_compaction(); });
-        if (due) compact();
+        if (!due) return;
+        try {
+            compact();
+        } catch (const std::bad_alloc&) {
+        }
     }
     [[nodiscard]] static bool is_permutation(std::span<const index_t> order) {
         std::vector<bool> seen(order.size());
@@ -373,7 +482,7 @@ private:
     memory memory_;
     std::size_t size_ = 0;
     std::size_t owned_ = 0;
-    std::unique_ptr<std::uint64_t> allocation_ = std::make_unique<std::uint64_t>(0);  // which one: see lease
+    std::unique_ptr<std::uint64_t> allocation_;  // which one: see lease; there is a number if there is memory
 };
 
 }  // namespace tsubu

@@ -57,7 +57,8 @@ struct soa {
 
         [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
         [[nodiscard]] std::size_t memory_bytes() const noexcept {
-            return std::apply([](const auto&... array) { return (std::size_t{0} + ... + array.memory_bytes()); }, arrays_);
+            return std::apply([](const auto&... array) { return (std::size_t{0} + ... + array.memory_bytes()); },
+                              arrays_);
         }
         template <std::size_t K>
         [[nodiscard, gnu::always_inline]] value<K>& at(std::size_t i) noexcept {
@@ -84,7 +85,8 @@ struct soa {
         void swap_rows(std::size_t i, std::size_t j) noexcept {
             std::apply([&](auto&... array) { (std::swap(array.data()[i], array.data()[j]), ...); }, arrays_);
         }
-        /// One field after the other: reads at random, writes in order. Strong guarantee: all memory is asked for first.
+        /// One field after the other: reads at random, writes in order. Strong guarantee: all memory is
+        /// asked for first.
         template <class Index>
         void gather(const Index* order, std::size_t count) {
             gather(order, count, all);

@@ -33,7 +33,8 @@ inline constexpr field<"torque", vec<D == 2 ? 1 : 3, Scalar>, "N m", field_trait
     torque{};
 inline constexpr field<"radius", double, "m"> radius{};
 inline constexpr field<"mass", double, "kg"> mass{};
-/// How many periods of the box the particle has gone along each axis: position + shift L is where it would be unwrapped.
+/// How many periods of the box the particle has gone along each axis: position + shift L is where it would
+/// be unwrapped.
 template <std::size_t D>
 inline constexpr field<"image", vec<D, std::int64_t>, "", field_traits{travels::never}> image{};
 

@@ -9,7 +9,7 @@
 #include <array>    // std::array
 #include <compare>  // operator<=>
 #include <cstddef>  // std::size_t
-#include <cstdint>  // std::int32_t, std::int64_t
+#include <cstdint>  // std::int64_t
 
 namespace tsubu {
 
@@ -18,7 +18,7 @@ template <std::size_t Order>
 struct term {
     static_assert(Order >= 2 && Order <= 4, "a term joins two, three or four particles");
     static constexpr std::size_t order = Order;
-    std::int32_t type = 0;
+    std::int64_t type = 0;  // as wide as an id: no padding, which would travel and be stored as it lies
     std::array<std::int64_t, Order> ids{};
 
     friend constexpr auto operator<=>(const term&, const term&) noexcept = default;

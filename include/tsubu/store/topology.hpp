@@ -10,11 +10,12 @@
 #include <tsubu/store/standard_fields.hpp>
 #include <tsubu/store/term.hpp>
 
-#include <algorithm>    // std::binary_search, std::sort
+#include <algorithm>    // std::binary_search, std::find
 #include <array>        // std::array
 #include <concepts>     // std::convertible_to
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t, std::uint64_t
+#include <limits>       // std::numeric_limits
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <type_traits>  // std::remove_cv_t
@@ -22,8 +23,8 @@
 
 namespace tsubu {
 
-/// Each term is kept once: a bond by its first particle, any other by its second. Forces on its other particles are sent
-/// back to their owners.
+/// Each term is kept once: a bond by its first particle, any other by its second. Forces on its other particles are
+/// sent back to their owners.
 ///
 /// Choose it when terms are many and memory or time per term counts. Do not when forces must not travel.
 struct newton_on {
@@ -69,20 +70,24 @@ struct topology {
     ///
     /// @param where           an id_map of the particles of this rank
     /// @param allows_repeats  whether a particle may be in the term twice
-    /// @throws input_error if the type is 0, or a particle is in it twice and may not: nothing is added then.
+    /// @throws input_error if the type is 0, or a particle is in it twice and may not. Strong guarantee.
     template <class Store, class Map>
     static std::size_t insert(Store& store, const Map& where, const term_type& one, bool allows_repeats = false) {
         check(one, allows_repeats);
+        const auto added = one;  // it may lie in this store, in a list that grows
+        std::array<std::size_t, order> keepers{};
         std::size_t kept = 0;
         for (std::size_t k = 0; k < order; ++k) {
             bool is_first = true;  // of a particle that is in it twice
-            for (std::size_t j = 0; j < k; ++j) is_first = is_first && one.ids[j] != one.ids[k];
-            if (!is_first || !keeps(one, one.ids[k])) continue;
-            const auto i = where.find(static_cast<typename Map::id_type>(one.ids[k]));
+            for (std::size_t j = 0; j < k; ++j) is_first = is_first && added.ids[j] != added.ids[k];
+            if (!is_first || !keeps(added, added.ids[k])) continue;
+            const auto i = where.find(static_cast<typename Map::id_type>(added.ids[k]));
             if (i == absent || static_cast<std::size_t>(i) >= store.owned_count()) continue;
-            store[Field][static_cast<std::size_t>(i)].push_back(one);
-            ++kept;
+            keepers[kept++] = static_cast<std::size_t>(i);
         }
+        const auto lists = store[Field];
+        for (std::size_t n = 0; n < kept; ++n) lists[keepers[n]].reserve(lists[keepers[n]].size() + 1);
+        for (std::size_t n = 0; n < kept; ++n) lists[keepers[n]].push_back(added);  // there is room: all or none
         return kept;
     }
     /// How many rows() writes (C6 to C9). Summed over all ranks: the number of terms.
@@ -103,7 +108,7 @@ struct topology {
                 if (!writes(one, particles[i])) continue;
                 auto ids = one.ids;
                 if constexpr (order == 2) ids = {particles[i], other_end(one, particles[i])};
-                row(one.type < 0 ? -std::int64_t{one.type} : std::int64_t{one.type}, ids);
+                row(one.type < 0 ? -one.type : one.type, ids);
             }
     }
     /// The terms of the owned particles, and where their particles are.
@@ -112,12 +117,14 @@ struct topology {
         std::vector<std::array<index_t, order>> places;  ///< [terms] indices; absent where a particle is not here
         std::size_t incomplete = 0;                      ///< terms with a particle that is not here
     };
-    /// One batched look-up of all particles of all terms; of several copies of a particle the one closest to the keeper.
+    /// One batched look-up of all particles of all terms; of several copies of a particle the one closest to
+    /// the keeper.
     ///
     /// @param same      the links that `where` was built with
     /// @param distance  distance(i, j) between two indices, any measure
     template <class Store, class Map, class Links, class Distance>
-    [[nodiscard]] static resolved resolve(const Store& store, const Map& where, const Links& same, Distance&& distance) {
+    [[nodiscard]] static resolved resolve(const Store& store, const Map& where, const Links& same,
+                                          Distance&& distance) {
         using id_type = typename Map::id_type;
         resolved found;
         std::vector<id_type> wanted;
@@ -137,7 +144,8 @@ struct topology {
                 const auto at = first[t * order + k];
                 is_whole = is_whole && at != absent;
                 found.places[t][k] =
-                    at == absent ? absent : closest_image(same, at, [&](index_t j) { return distance(found.keepers[t], j); });
+                    at == absent ? absent
+                                 : closest_image(same, at, [&](index_t j) { return distance(found.keepers[t], j); });
             }
             found.incomplete += is_whole ? 0U : 1U;
         }
@@ -165,6 +173,7 @@ struct topology {
     }
 
 private:
+    static constexpr std::int64_t most_types = (std::numeric_limits<std::int32_t>::max)();  // as files have them
     // A bond is its first particle's, an angle, a dihedral, an improper its second's.
     static constexpr std::size_t main_one = order == 2 ? 0 : 1;
 
@@ -173,7 +182,11 @@ private:
     }
     static void check(const term_type& one, bool allows_repeats) {
         if (one.type == 0)
-            detail::raise<input_error>("topology::insert", "a term of type 0" + shown(one), "type 0 is no term; leave it out");
+            detail::raise<input_error>("topology::insert", "a term of type 0" + shown(one),
+                                       "type 0 is no term; leave it out");
+        if (one.type > most_types || one.type < -most_types)
+            detail::raise<input_error>("topology::insert", "type " + std::to_string(one.type) + shown(one),
+                                       "types go up to 2^31 - 1");
         for (std::size_t k = 0; k < order && !allows_repeats; ++k)
             for (std::size_t j = 0; j < k; ++j)
                 if (one.ids[j] == one.ids[k])

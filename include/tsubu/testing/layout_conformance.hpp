@@ -202,8 +202,8 @@ template <particle_layout Layout, class Check>
 void check_layout(std::uint64_t seed, std::size_t steps, Check&& check) {
     detail::check_layout_of<Layout, double>(seed, steps, check);
     detail::check_layout_of<Layout, std::int64_t, std::array<double, 3>, double>(seed, steps, check);
-    detail::check_layout_of<Layout, unsigned char, double, std::array<float, 3>, std::uint16_t, std::array<unsigned char, 5>,
-                            std::int64_t>(seed, steps, check);
+    detail::check_layout_of<Layout, unsigned char, double, std::array<float, 3>, std::uint16_t,
+                            std::array<unsigned char, 5>, std::int64_t>(seed, steps, check);
 }
 
 }  // namespace tsubu::testing

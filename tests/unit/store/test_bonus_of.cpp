@@ -84,7 +84,8 @@ TEMPLATE_TEST_CASE("what only some particles have stays theirs under 1e5 random 
             model = after;
         } else if (dice < 202) {
             const auto mine = g.owned();
-            std::sort(mine.begin(), mine.end(), [](const auto& a, const auto& b) { return a[tsubu::id] < b[tsubu::id]; });
+            std::sort(mine.begin(), mine.end(),
+                      [](const auto& a, const auto& b) { return a[tsubu::id] < b[tsubu::id]; });
             std::sort(model.begin(), model.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
         } else if (dice < 203) {
             for (int n = 0; n < 20; ++n) {
@@ -161,5 +162,16 @@ TEST_CASE("a value that is not there is told in debug builds", "[store]") {
     tsubu::particle_store<set> g;
     g.push_back();
     CHECK(says(last_words([&] { static_cast<void>(*g[shape][0]); }), "this particle has no value of the field"));
+    CHECK(says(last_words([&] { static_cast<void>(g[shape][1]); }), "no particle with this index"));
+    const auto all = g[shape];
+    const auto one = all[0];
+    g.reserve(20'000);
+    const auto ends = [](auto&& call) { return says(last_words(call), "older than its memory"); };
+    CHECK(ends([&] { static_cast<void>(all[0]); }));
+    CHECK(ends([&] { static_cast<void>(all.values()); }));
+    CHECK(ends([&] { static_cast<void>(all.owners()); }));
+    CHECK(ends([&] { static_cast<void>(one.has_value()); }));
+    CHECK(ends([&] { one.emplace({}); }));
+    CHECK(ends([&] { one.reset(); }));
 }
 #endif

@@ -53,10 +53,12 @@ TEMPLATE_TEST_CASE("a column can be indexed, walked and sorted in each layout", 
     CHECK(radii[0] == 0.5);
     std::int64_t expected = 0;
     for (const auto t : std::as_const(g)[tsubu::id]) CHECK(t == expected++);  // the other columns stay
-    for (std::size_t k = 0; k < 100; ++k) CHECK(*std::next(g[flag].begin(), static_cast<std::ptrdiff_t>(k)) == std::byte(k));
+    for (std::size_t k = 0; k < 100; ++k)
+        CHECK(*std::next(g[flag].begin(), static_cast<std::ptrdiff_t>(k)) == std::byte(k));
 }
 
-TEMPLATE_TEST_CASE("the cursor of a column counts as an iterator must", "[store]", tsubu::soa, tsubu::aos, tsubu::aosoa<5>) {
+TEMPLATE_TEST_CASE("the cursor of a column counts as an iterator must", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<5>) {
     auto g = filled<TestType>(20);
     const auto ids = g[tsubu::id];
     auto at = ids.begin();
@@ -119,8 +121,9 @@ TEMPLATE_TEST_CASE("a column that is older than the memory says so in debug buil
     const auto old_part = g.owned()[tsubu::radius].part(1, 1);
     CHECK(old[0] == 0);
     g.reserve(g.capacity() + 1);
-    const std::string words = "precondition violated: this view of a store is older than its memory; take a new one after "
-                              "particles were added";
+    const std::string words =
+        "precondition violated: this view of a store is older than its memory; take a new one after "
+        "particles were added";
     CHECK(says(last_words([&] { static_cast<void>(old[0]); }), words));
     CHECK(says(last_words([&] { static_cast<void>(old.begin()); }), words));
     CHECK(says(last_words([&] { static_cast<void>(old_part[0]); }), words));

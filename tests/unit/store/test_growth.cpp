@@ -63,7 +63,8 @@ TEST_CASE("where 64 bits end, no block is invented", "[store][C1]") {
 TEMPLATE_TEST_CASE("a growth policy gives what is needed, more than there is, in whole blocks", "[store][C1]",
                    tsubu::geometric_growth, tsubu::block_growth) {
     for (const std::uint64_t capacity : {0U, 1U, 16383U, 16384U, 16385U, 65536U, 1'000'000U, 2'147'483'648U})
-        for (const std::uint64_t needed : {std::uint64_t{0}, capacity, capacity + 1, capacity + 100'000, 10 * capacity}) {
+        for (const std::uint64_t needed :
+             {std::uint64_t{0}, capacity, capacity + 1, capacity + 100'000, 10 * capacity}) {
             const auto next = TestType{}.next(capacity, needed);
             CAPTURE(capacity, needed, next);
             CHECK(next > capacity);
@@ -80,12 +81,20 @@ TEST_CASE("geometric growth reallocates O(log n) times and copies less than thre
     }
     CHECK(cost_of<tsubu::geometric_growth>(10'000'000).reallocations <= 20);
     CHECK(cost_of<tsubu::geometric_growth>(100'000'000).reallocations <= 25);
+    // A constant number for each factor of ten: O(log n).
+    std::uint64_t before = cost_of<tsubu::geometric_growth>(1'000'000).reallocations;
+    for (std::uint64_t appends = 10'000'000; appends <= 10'000'000'000'000; appends *= 10) {
+        const auto reallocations = cost_of<tsubu::geometric_growth>(appends).reallocations;
+        CHECK(reallocations - before <= 6);  // log(10) / log(1.5) = 5.7
+        before = reallocations;
+    }
 }
 
 TEST_CASE("block growth copies 3e11 elements for 1e8 appends", "[store][C1]") {
     const auto cost = cost_of<tsubu::block_growth>(100'000'000);
     CHECK(cost.reallocations == (100'000'000 + 16383) / 16384);
-    CHECK(cost.copied > 300'000'000'000);
-    CHECK(cost.copied < 310'000'000'000);
+    // Before block k + 1 comes, k blocks are copied: 16384 * (0 + 1 + ... + 6103) = 3.05e11.
+    CHECK(cost.copied == std::uint64_t{16384} * 6103 * 6104 / 2);
+    CHECK(cost.copied == 305'174'216'704);
     CHECK(cost_of<tsubu::block_growth>(10'000'000).reallocations == 611);
 }

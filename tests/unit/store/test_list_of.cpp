@@ -160,8 +160,8 @@ private:
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("lists are what vectors would be, whatever happens to their particles", "[store]", tsubu::soa, tsubu::aos,
-                   tsubu::aosoa<1>, tsubu::aosoa<5>, tsubu::aosoa<16>) {
+TEMPLATE_TEST_CASE("lists are what vectors would be, whatever happens to their particles", "[store]", tsubu::soa,
+                   tsubu::aos, tsubu::aosoa<1>, tsubu::aosoa<5>, tsubu::aosoa<16>) {
     const std::uint64_t seed = 20'26;
     twins<TestType> both(seed);
     for (int k = 0; k < 1000; ++k) both.add();
@@ -251,8 +251,17 @@ TEST_CASE("lists say in debug builds what is wrong", "[store]") {
     CHECK(says(last_words([&] { static_cast<void>(old[0][0]); }), "no element with this number in the list"));
     CHECK(says(last_words([&] { old[0].swap_remove(0); }), "no element with this number in the list"));
     CHECK(says(last_words([&] { static_cast<void>(old[1]); }), "no particle with this index"));
+    const auto list = g[marks][0];
+    const auto const_list = std::as_const(g)[marks][0];
     g.reserve(20'000);
     CHECK(says(last_words([&] { static_cast<void>(old[0]); }), "older than its memory"));
+    CHECK(says(last_words([&] { static_cast<void>(list.size()); }), "older than its memory"));
+    CHECK(says(last_words([&] { static_cast<void>(list.begin()); }), "older than its memory"));
+    CHECK(says(last_words([&] { list.push_back(1); }), "older than its memory"));
+    CHECK(says(last_words([&] { list.resize(3); }), "older than its memory"));
+    CHECK(says(last_words([&] { list.reserve(3); }), "older than its memory"));
+    CHECK(says(last_words([&] { list.clear(); }), "older than its memory"));
+    CHECK(says(last_words([&] { static_cast<void>(const_list.span()); }), "older than its memory"));
     g[marks][0].push_back(1);
     CHECK(g[marks][0].size() == 1);
 }

@@ -29,7 +29,8 @@ constexpr tsubu::field<"charge", tsubu::bonus_of<double>> charge{};
 constexpr tsubu::field<"flag", unsigned char> flag{};
 constexpr auto x = tsubu::position<3>;
 using set = tsubu::fields<tsubu::id, x, flag, tsubu::radius, contacts, charge>;
-using flat_set = tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::velocity<2>, tsubu::force<2>, tsubu::radius, tsubu::mass>;
+using flat_set =
+    tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::velocity<2>, tsubu::force<2>, tsubu::radius, tsubu::mass>;
 
 /// A layout whose memory is refused when it is told to.
 template <class Layout>
@@ -108,7 +109,8 @@ TEMPLATE_TEST_CASE("the same program gives the same bits in each layout", "[stor
     CHECK(scenario<TestType>() == expected);
 }
 
-TEMPLATE_TEST_CASE("a new particle has what it is given, and zeros", "[store]", tsubu::soa, tsubu::aos, tsubu::aosoa<5>) {
+TEMPLATE_TEST_CASE("a new particle has what it is given, and zeros", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<5>) {
     tsubu::particle_store<set, TestType> g;
     CHECK(g.empty());
     CHECK(g.capacity() == 0);
@@ -185,7 +187,8 @@ TEST_CASE("the last particle moves into the hole", "[store]") {
     CHECK_THROWS_AS(g.swap_remove(0), tsubu::input_error);
 }
 
-TEMPLATE_TEST_CASE("permute, and its inverse, which brings all back", "[store]", tsubu::soa, tsubu::aos, tsubu::aosoa<5>) {
+TEMPLATE_TEST_CASE("permute, and its inverse, which brings all back", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<5>) {
     tsubu::particle_store<set, TestType> g;
     const std::size_t count = 1000;
     for (std::size_t k = 0; k < count; ++k) {
@@ -246,9 +249,11 @@ TEST_CASE("many at once are one reallocation", "[store]") {
 TEST_CASE("2^31 particles are refused, and numbers that wrap around", "[store]") {
     tsubu::particle_store<tsubu::fields<tsubu::species>> g;
     g.push_back(tsubu::species = 4);
-    for (const std::size_t count : {std::size_t{1} << 31, std::size_t{1} << 62, (std::numeric_limits<std::size_t>::max)()}) {
+    for (const std::size_t count :
+         {std::size_t{1} << 31, std::size_t{1} << 62, (std::numeric_limits<std::size_t>::max)()}) {
         CAPTURE(count);
-        CHECK(says(thrown<tsubu::limit_error>([&] { g.reserve(count); }), "tsubu::particle_store: " + std::to_string(count)));
+        CHECK(says(thrown<tsubu::limit_error>([&] { g.reserve(count); }),
+                   "tsubu::particle_store: " + std::to_string(count)));
         CHECK_THROWS_AS(g.add_owned(count), tsubu::limit_error);
         CHECK_THROWS_AS(g.add_ghosts(count), tsubu::limit_error);
     }
@@ -257,7 +262,8 @@ TEST_CASE("2^31 particles are refused, and numbers that wrap around", "[store]")
     CHECK(g[tsubu::species][0] == 4);
 }
 
-TEMPLATE_TEST_CASE("where memory is refused, the store is what it was", "[store]", tsubu::soa, tsubu::aos, tsubu::aosoa<16>) {
+TEMPLATE_TEST_CASE("where memory is refused, the store is what it was", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<16>) {
     using layout = refusing<TestType>;
     tsubu::particle_store<set, layout> g;
     while (g.size() == 0 || g.size() < g.capacity()) {
@@ -322,8 +328,8 @@ TEMPLATE_TEST_CASE("a copy is independent, a store that was moved from is empty"
     CHECK(g.size() == 11);
 }
 
-TEMPLATE_TEST_CASE("a flat set takes the sum of its fields, and no more", "[store]", tsubu::soa, tsubu::aos, tsubu::aosoa<1>,
-                   tsubu::aosoa<16>) {
+TEMPLATE_TEST_CASE("a flat set takes the sum of its fields, and no more", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<1>, tsubu::aosoa<16>) {
     using store = tsubu::particle_store<flat_set, TestType>;
     STATIC_REQUIRE(store::bytes_per_particle == 8 + 3 * 16 + 2 * 8);
     store g;

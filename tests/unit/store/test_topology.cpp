@@ -26,7 +26,8 @@ using tsubu::absent;
 using tsubu::newton_off;
 using tsubu::newton_on;
 using tsubu::term;
-using set = tsubu::fields<tsubu::id, tsubu::position<1>, tsubu::bonds, tsubu::angles, tsubu::dihedrals, tsubu::impropers>;
+using set =
+    tsubu::fields<tsubu::id, tsubu::position<1>, tsubu::bonds, tsubu::angles, tsubu::dihedrals, tsubu::impropers>;
 using map = tsubu::id_map<tsubu::flat_storage<std::int64_t>>;
 
 /// A rank: its particles, and where they are.
@@ -73,7 +74,8 @@ std::vector<term<Order>> random_terms(std::size_t count, std::int64_t particles,
 
 /// A term as it is the same whoever writes it: the type without its sign; a bond has no direction.
 template <std::size_t Order>
-std::pair<std::int64_t, std::array<std::int64_t, Order>> canonical(std::int64_t type, std::array<std::int64_t, Order> ids) {
+std::pair<std::int64_t, std::array<std::int64_t, Order>> canonical(std::int64_t type,
+                                                                   std::array<std::int64_t, Order> ids) {
     if (Order == 2) std::sort(ids.begin(), ids.end());
     return {type < 0 ? -type : type, ids};
 }
@@ -113,6 +115,34 @@ void check_split(std::size_t ranks, std::uint64_t seed) {
     CHECK(counted == terms.size());
     CHECK(begins_with_an_owned_one);
     CHECK(kept == terms.size() * (Newton::keeps_once ? 1 : order));
+
+    // Some particles leave the simulation: their terms leave with them, on all ranks, and no other does.
+    std::vector<std::int64_t> gone;
+    for (std::int64_t t = 1; t <= particles; ++t)
+        if (random.below(8) == 0) gone.push_back(t);
+    const auto is_gone = [&](std::int64_t t) { return std::binary_search(gone.begin(), gone.end(), t); };
+    std::size_t removed = 0;
+    for (auto& rank : all) {
+        removed += rules::remove_terms_of(rank.g, gone);
+        rank.g.clear_ghosts();
+        for (std::size_t i = rank.g.owned_count(); i-- > 0;)
+            if (is_gone(rank.g[tsubu::id][i])) rank.g.swap_remove(i);
+    }
+    const auto end = std::remove_if(expected.begin(), expected.end(), [&](const auto& one) {
+        return std::any_of(one.second.begin(), one.second.end(), is_gone);
+    });
+    const auto leaving = static_cast<std::size_t>(expected.end() - end);
+    expected.erase(end, expected.end());
+    written.clear();
+    counted = 0;
+    for (const auto& rank : all) {
+        rules::rows(rank.g, [&](std::int64_t type, const auto& ids) { written.push_back(canonical(type, ids)); });
+        counted += rules::count(rank.g);
+    }
+    std::sort(written.begin(), written.end());
+    CHECK(written == expected);
+    CHECK(counted == expected.size());
+    CHECK(removed == leaving * (Newton::keeps_once ? 1 : order));
 }
 
 template <class Newton>
@@ -124,7 +154,7 @@ using bending = tsubu::topology<tsubu::angles, Newton>;
 
 TEMPLATE_TEST_CASE("over all ranks each term is written exactly once, with Newton's rule or without", "[store][C5][C7]",
                    newton_on, newton_off) {
-    for (const std::size_t ranks : {1U, 2U, 3U, 7U})
+    for (std::size_t ranks = 1; ranks <= 8; ++ranks)
         for (const std::uint64_t seed : {1U, 2U, 3U}) {
             check_split<tsubu::bonds, TestType>(ranks, seed);
             check_split<tsubu::angles, TestType>(ranks, seed);
@@ -168,8 +198,8 @@ TEST_CASE("rows go by particle and by place, and a bond begins with the particle
     CHECK(rules::count(r.g) == 5);
 }
 
-TEMPLATE_TEST_CASE("type 0 is skipped wherever it stands, and refused where it is inserted", "[store][C5][C7]", newton_on,
-                   newton_off) {
+TEMPLATE_TEST_CASE("type 0 is skipped wherever it stands, and refused where it is inserted", "[store][C5][C7]",
+                   newton_on, newton_off) {
     one_rank r;
     for (const std::int64_t t : {1, 2, 3}) r.add(t);
     r.index();
@@ -184,13 +214,17 @@ TEMPLATE_TEST_CASE("type 0 is skipped wherever it stands, and refused where it i
     CHECK(bonding<TestType>::resolve(r.g, r.where, r.same, [](auto, auto) { return 0.0; }).keepers.size() == 1);
 }
 
-TEMPLATE_TEST_CASE("a particle twice in a term is refused, unless that is meant", "[store][C5][C7]", newton_on, newton_off) {
+TEMPLATE_TEST_CASE("a particle twice in a term is refused, unless that is meant", "[store][C5][C7]", newton_on,
+                   newton_off) {
     one_rank r;
     for (const std::int64_t t : {1, 2, 3}) r.add(t);
     r.index();
-    CHECK(says(thrown<tsubu::input_error>([&] { bonding<TestType>::insert(r.g, r.where, {1, {2, 2}}); }),
-               "tsubu::topology::insert: particle 2 twice in bonds {2, 2}; a term joins different particles; allow repeats "
-               "if that is meant"));
+    CHECK(says(
+        thrown<tsubu::input_error>([&] {
+            bonding<TestType>::insert(r.g, r.where, {1, {2, 2}});
+        }),
+        "tsubu::topology::insert: particle 2 twice in bonds {2, 2}; a term joins different particles; allow repeats "
+        "if that is meant"));
     CHECK_THROWS_AS(bending<TestType>::insert(r.g, r.where, {1, {1, 3, 3}}), tsubu::input_error);
     CHECK_THROWS_AS(bending<TestType>::insert(r.g, r.where, {1, {3, 1, 3}}), tsubu::input_error);
     CHECK(bonding<TestType>::count(r.g) + bending<TestType>::count(r.g) == 0);
@@ -211,7 +245,8 @@ TEST_CASE("a term whose main particle is owned nowhere is kept by those that are
     CHECK(r.g[tsubu::angles][1].empty());  // no ghost keeps one
 }
 
-TEST_CASE("each partner is its copy closest to the keeper, also where a ghost is nearer than the owned one", "[store]") {
+TEST_CASE("each partner is its copy closest to the keeper, also where a ghost is nearer than the owned one",
+          "[store]") {
     one_rank r;  // a periodic line from 0 to 10
     r.add(1, 0.1);
     r.add(2, 9.9);
@@ -260,7 +295,8 @@ TEMPLATE_TEST_CASE("terms of particles that leave are removed, and counted", "[s
     for (const auto& one : terms) kept += bending<TestType>::insert(r.g, r.where, one);
     const std::vector<std::int64_t> gone{3, 17, 18, 49};
     const auto names_one = [&](const auto& ids) {
-        return std::any_of(ids.begin(), ids.end(), [&](auto t) { return std::binary_search(gone.begin(), gone.end(), t); });
+        return std::any_of(ids.begin(), ids.end(),
+                           [&](auto t) { return std::binary_search(gone.begin(), gone.end(), t); });
     };
     const auto leaving =
         std::count_if(terms.begin(), terms.end(), [&](const auto& one) { return names_one(one.ids); });

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the results of bench_id_map and bench_domain: one page without references to anything outside itself, or the
-tables and the picture of the README.
+"""Draws the results of the programs of bench/: one page without references to anything outside itself, or the tables
+and the picture of the README.
 
     report.py RESULT.json [MORE.json.gz ...] -o bench/out/report.html
     report.py --markdown RESULT.json
     report.py --picture FILE.svg RESULT.json
 
 Times are medians over the repetitions; the spread is the lowest and the highest. Every ratio is one of two medians of
-the same group, so of two series whose repetitions ran interleaved. The package report, beside this file, does the work.
+the same group, so of two series whose repetitions ran interleaved; in the room store each repetition has a ratio of its
+own. The package report, beside this file, does the work.
 """
 import sys
 

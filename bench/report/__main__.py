@@ -6,10 +6,15 @@ import json
 import os
 import sys
 
-from . import domain, id_map
-from .page import REQUIRED_CONTEXT, STYLE, Refusal, claim_section, context_section, plotting
+from . import domain, id_map, io, store
+from .page import REQUIRED_CONTEXT, STYLE, Refusal, claim_section, context_section, listed, plotting
 
-ROOMS = {"id": id_map, "domain": domain}  # in the order of the page
+ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io}  # in the order of the page
+
+
+def room_of(rows):
+    """Rows begin with the name of their room, but for those of the id maps, which begin with a pattern of ids."""
+    return next((name for name in ROOMS if any(row["name"].startswith(name + "/") for row in rows)), "id")
 
 
 class Figures:
@@ -33,10 +38,10 @@ class Figures:
         missing = [key for key in REQUIRED_CONTEXT if not context.get(key)]
         if missing:
             raise Refusal(f"{path}: the context lacks {', '.join(missing)}: figures without it are worth nothing; "
-                          "run bench_id_map or bench_domain, not Google Benchmark alone")
+                          "run a program of bench/, not Google Benchmark alone")
         rows = content["benchmarks"]
         context = {**context, "file": os.path.basename(path)}
-        name = "domain" if any(row["name"].startswith("domain/") for row in rows) else "id"
+        name = room_of(rows)
         self.contexts.append((name, context))
         results = self.results[name]
         results.begin_file(context)
@@ -52,7 +57,7 @@ class Figures:
 def page(figures):
     pyplot = plotting()
     rooms = figures.rooms()
-    title = f"tsubu: {' and '.join(room.TITLE for room, _ in rooms)}"
+    title = f"tsubu: {listed([room.TITLE for room, _ in rooms])}"
     links = [("claims", "What must hold")] + [link for room, results in rooms for link in room.links(results)]
     claims = [claim for room, results in rooms for claim in room.all_claims(results)]
     notes = " ".join(room.CLAIM_NOTE for room, _ in rooms if room.CLAIM_NOTE)
@@ -70,7 +75,7 @@ def page(figures):
 def main(description):
     parser = argparse.ArgumentParser(prog="report.py", description=description)
     parser.add_argument("results", nargs="+", metavar="RESULT.json",
-                        help="of bench_id_map or bench_domain; .json.gz is read as well")
+                        help="of a program of bench/; .json.gz is read as well")
     parser.add_argument("-o", "--out", default="bench/out/report.html", help="the page (default: %(default)s)")
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")

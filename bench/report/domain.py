@@ -5,7 +5,7 @@ import statistics
 from collections import defaultdict
 
 from .page import (GRID, INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, power, quotient,
-                   spread_text, svg_of, table)
+                   ratio_cell, spread_text, svg_of, table)
 
 # name: (label, colour, marker)
 SCALARS = {
@@ -120,7 +120,8 @@ def claims_on_partition(results):
             for scale in scales:
                 claim.add(results.partitions[(scalar, "padded", scale)][field], f"box of {scale_name(scale)}")
             claims.append(claim)
-        claim = Claim(f"padded, {scalar} (expected to be wrong): points without exactly one extended owner, at every scale", 1, "")
+        claim = Claim(f"padded, {scalar} (expected to be wrong): points without exactly one extended owner, at every "
+                      "scale", 1, "")
         for scale in measured:
             claim.add(results.partitions[(scalar, "padded", scale)]["wrong_extended"], f"box of {scale_name(scale)}")
         claims.append(claim)
@@ -260,7 +261,8 @@ def accuracy_chart(results, pyplot):
                   zorder=4)
     speeds = [p[0] for p in points]
     axes.set(yscale="log", xscale="log",
-             xlabel=f"ns per point: batched wrap, 1 % outside, and owns; {power(count)} points", ylabel="worst error after 1e6 wraps [box lengths]")
+             xlabel=f"ns per point: batched wrap, 1 % outside, and owns; {power(count)} points",
+             ylabel="worst error after 1e6 wraps [box lengths]")
     axes.set_xlim(min(speeds) / 1.6, max(speeds) * 1.6)
     axes.set_ylim(zero / 3, 8)
     exponents = list(range(len_floor(least) - len_floor(least) % 2, 1, 2))
@@ -297,13 +299,6 @@ def readme_picture(results, path, pyplot):
 
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
-
-
-def ratio_cell(ratio):
-    if ratio is None:
-        return "<td></td>"
-    low, high = figure_of(ratio.low), figure_of(ratio.high)
-    return f'<td class="figure">{figure_of(ratio)}x <small>({low}–{high})</small></td>'
 
 
 def time_cell(results, *cell):
@@ -388,10 +383,10 @@ def links(results):
 PARTITION_TEXT = (
     "Boxes [0, s) in one and two dimensions, in 4 and 7 parts, not periodic. Asked are all faces and cuts, the "
     "numbers next to them, and for each box 1000 random points inside and 1000 within a tenth of s outside. A point "
-    "is wrong where its owners are not one inside the box and none outside. So the "
-    "share is one of points chosen to be hard, not of particles. The padded faces, with the epsilon of LIGGGHTS, 1e-8 m, "
-    "are wrong at both ends; between them still for what lies within epsilon outside. Their owns_extended gives the cut "
-    "between the first two parts to both, and nobody what lies below a single part.")
+    "is wrong where its owners are not one inside the box and none outside. So the share is one of points chosen to be "
+    "hard, not of particles. The padded faces, with the epsilon of LIGGGHTS, 1e-8 m, are wrong at both ends; between "
+    "them still for what lies within epsilon outside. Their owns_extended gives the cut between the first two parts to "
+    "both, and nobody what lies below a single part.")
 TIME_TEXT = (
     "Three dimensions, 8 ranks (2 × 2 × 2), points in random order; median (lowest–highest). Columns begin at cache "
     "lines. Each wrap moves the same points as the one before: two boxes, half a box apart, take turns. No point of a "

@@ -55,6 +55,22 @@ def quotient(a, b):
     return Spread(a / b, a_low / b_high, a_high / b_low)
 
 
+def middle(values):
+    """The median, and between which of the values it lies at 93 % or more, whatever their distribution."""
+    values = sorted(values)
+    count = len(values)
+    k, below = 0, 2.0 / 2**count  # the chance that the median lies outside of values[k] .. values[-1 - k]
+    while k + 1 < count // 2 and below + 2.0 * math.comb(count, k + 1) / 2**count <= .07:
+        k += 1
+        below += 2.0 * math.comb(count, k) / 2**count
+    return Spread(statistics.median(values), values[k], values[-1 - k])
+
+
+def listed(words):
+    """a, b and c"""
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
 # ---------------------------------------------------------------------------------------------------------------
 # What must be shown: each claim of the project, with what was measured
 
@@ -203,6 +219,13 @@ def table(head, rows):
 
 def spread_text(times):
     return f"{figure_of(statistics.median(times))} <small>({figure_of(min(times))}–{figure_of(max(times))})</small>"
+
+
+def ratio_cell(ratio):
+    if ratio is None:
+        return "<td></td>"
+    low, high = figure_of(ratio.low), figure_of(ratio.high)
+    return f'<td class="figure">{figure_of(ratio)}x <small>({low}–{high})</small></td>'
 
 
 def folded(summary, content):

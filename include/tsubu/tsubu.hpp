@@ -73,7 +73,6 @@
 #include <tsubu/io/checksum.hpp>
 #include <tsubu/io/complete_header.hpp>
 #include <tsubu/io/file_error.hpp>
-#include <tsubu/io/file_sink.hpp>
 #include <tsubu/io/lammps_data_file.hpp>
 #include <tsubu/io/lammps_fields.hpp>
 #include <tsubu/io/lammps_header.hpp>
@@ -83,5 +82,4 @@
 #include <tsubu/io/restart.hpp>
 #include <tsubu/io/restart_state.hpp>
 #include <tsubu/io/text_sink.hpp>
-#include <tsubu/io/text_source.hpp>
 #include <tsubu/io/vtk.hpp>

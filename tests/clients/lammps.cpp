@@ -80,9 +80,10 @@ grains make_grains() {
 
 void write_script(const std::string& folder, const std::string& scene, const std::string& setup,
                   const std::string& coefficients) {
-    tsubu::file_sink script(folder + "/" + scene + ".in");
-    script("units lj\nboundary p p p\n" + setup + "read_data " + scene + ".lmp\npair_style zero 1.0 nocoeff\npair_coeff * *\n" +
-           coefficients + "write_data " + scene + ".out nocoeff\n");
+    tsubu::atomic_file script(folder + "/" + scene + ".in");
+    script.append("units lj\nboundary p p p\n" + setup + "read_data " + scene +
+                  ".lmp\npair_style zero 1.0 nocoeff\npair_coeff * *\n" + coefficients + "write_data " + scene +
+                  ".out nocoeff\n");
     script.commit();
 }
 
@@ -126,7 +127,8 @@ bool compare_molecules(const std::string& folder, const std::string& scene) {
                  theirs.substr(from, 200).c_str());
     return false;
 }
-/// LAMMPS keeps the mass of a grain, and goes to fractions of a tilted box and back: densities and positions are rounded.
+/// LAMMPS keeps the mass of a grain, and goes to fractions of a tilted box and back: densities and positions are
+/// rounded.
 bool compare_grains(const std::string& folder) {
     const auto g = make_grains();
     grains came;
@@ -134,7 +136,8 @@ bool compare_grains(const std::string& folder) {
     std::vector<std::int64_t> names(came[tsubu::id].begin(), came[tsubu::id].end());
     tsubu::id_map<> where;
     where.rebuild(names);
-    bool same = came.size() == g.size() && top.tilt == tsubu::vec<3>{2.5, 0, 0} && top.lo == cube.lo && top.hi == cube.hi;
+    bool same =
+        came.size() == g.size() && top.tilt == tsubu::vec<3>{2.5, 0, 0} && top.lo == cube.lo && top.hi == cube.hi;
     const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-13 * (1 + std::abs(b)); };
     for (std::size_t i = 0; same && i < g.size(); ++i) {
         const auto j = static_cast<std::size_t>(where.at(g[tsubu::id][i]));

@@ -28,7 +28,8 @@ int main(int count, char** words) {
     for (int k = 0; k < inputs; ++k) {
         input.resize(random.below(random.below(8) == 0 ? 400 : 32));
         const bool small = random.below(2) == 0;  // small numbers pass more checks
-        for (auto& byte : input) byte = static_cast<std::uint8_t>(random.below(small && random.below(3) != 0 ? 4 : 256));
+        for (auto& byte : input)
+            byte = static_cast<std::uint8_t>(random.below(small && random.below(3) != 0 ? 4 : 256));
         LLVMFuzzerTestOneInput(input.data(), input.size());
     }
     std::printf("%d files and %d inputs of seed 41: nothing found\n", count - 1, inputs);

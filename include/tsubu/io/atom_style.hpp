@@ -24,7 +24,8 @@ enum class atom_style { atomic, sphere, bond, angle, molecular, full };
 
 namespace detail {
 
-inline constexpr std::array<std::string_view, 6> atom_style_names{"atomic", "sphere", "bond", "angle", "molecular", "full"};
+inline constexpr std::array<std::string_view, 6> atom_style_names{"atomic", "sphere",    "bond",
+                                                                  "angle",  "molecular", "full"};
 
 }  // namespace detail
 

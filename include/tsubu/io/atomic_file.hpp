@@ -6,15 +6,16 @@
 #include <tsubu/core/expects.hpp>
 #include <tsubu/io/file_error.hpp>
 
-#include <algorithm>  // std::min
-#include <atomic>     // std::atomic
-#include <cerrno>     // errno
-#include <cstddef>    // std::byte, std::size_t
-#include <cstdint>    // std::uint64_t
-#include <cstdio>     // rename
-#include <span>       // std::span
-#include <string>     // std::string
-#include <utility>    // std::exchange, std::move, std::swap
+#include <algorithm>    // std::min
+#include <atomic>       // std::atomic
+#include <cerrno>       // errno
+#include <cstddef>      // std::byte, std::size_t
+#include <cstdint>      // std::uint64_t
+#include <cstdio>       // rename
+#include <span>         // std::span
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+#include <utility>      // std::exchange, std::move, std::swap
 
 #include <fcntl.h>     // open
 #include <sys/stat.h>  // fstat
@@ -110,7 +111,7 @@ public:
         writer_.write_at(appended_, bytes);
         appended_ += bytes.size();
     }
-    void append(const std::string& text) { append(std::as_bytes(std::span(text))); }
+    void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
     /// How much was appended [bytes].
     [[nodiscard]] std::uint64_t appended() const noexcept { return appended_; }
     /// The file gets its name, and replaces what had it, once the disk has all of it. @throws file_error; the old file

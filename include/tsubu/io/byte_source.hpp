@@ -89,13 +89,15 @@ private:
 };
 static_assert(byte_source<file_source>);
 
-/// Bytes in memory, which the source does not own.
+/// Bytes in memory, which the source does not own: of a message, of a test.
 ///
 /// Concept: byte_source. Cost of a read: a copy.
 class memory_source {
 public:
     explicit memory_source(std::span<const std::byte> bytes, std::string name = "memory")
         : bytes_(bytes), name_(std::move(name)) {}
+    explicit memory_source(std::string_view text, std::string name = "memory")
+        : memory_source(std::as_bytes(std::span(text)), std::move(name)) {}
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
     [[nodiscard]] std::uint64_t size() const noexcept { return bytes_.size(); }
     /// @throws input_error beyond the end.

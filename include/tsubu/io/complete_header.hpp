@@ -37,8 +37,8 @@ template <class Store>
         auto& of_type = masses[static_cast<std::size_t>(type - 1)];
         if (of_type != 0 && of_type != weight)
             raise<input_error>("lammps_writer",
-                               "particles of type " + std::to_string(type) + " with masses " + shown(of_type) + " and " +
-                                   shown(weight),
+                               "particles of type " + std::to_string(type) + " with masses " + shown(of_type) +
+                                   " and " + shown(weight),
                                "atom styles but sphere have one mass per type");
         of_type = weight;
     }
@@ -51,8 +51,8 @@ template <class Store>
 
 }  // namespace detail
 
-/// Sets the number of rows to what the owned particles have, raises the numbers of types to what they need, and takes the
-/// masses from them if the header has none and the style wants them.
+/// Sets the number of rows to what the owned particles have, raises the numbers of types to what they need, and takes
+/// the masses from them if the header has none and the style wants them.
 ///
 /// Over ranks: each completes its own; the header of the file has the sums of rows and the largest types.
 /// @tparam Newton  newton_on or newton_off, as the store keeps its terms
@@ -72,14 +72,15 @@ void complete_header(lammps_header& top, const Store& store, atom_style style) {
                 most = (std::max)(most, type);
             });
             if (most > (std::numeric_limits<std::int32_t>::max)())
-                detail::raise<input_error>("lammps_writer", "a term of type " + std::to_string(most), "types have 31 bits");
+                detail::raise<input_error>("lammps_writer", "a term of type " + std::to_string(most),
+                                           "types have 31 bits");
             count.types = (std::max)(count.types, static_cast<std::int32_t>(most));
         });
     };
-    terms(lammps_section::bonds, top.bonds);
-    terms(lammps_section::angles, top.angles);
-    terms(lammps_section::dihedrals, top.dihedrals);
-    terms(lammps_section::impropers, top.impropers);
+    terms(lammps_section::bond_rows, top.bonds);
+    terms(lammps_section::angle_rows, top.angles);
+    terms(lammps_section::dihedral_rows, top.dihedrals);
+    terms(lammps_section::improper_rows, top.impropers);
     if constexpr (detail::has_named<Store, "mass">)
         if (!is_sphere(style) && top.masses.empty() && top.atoms.types != 0)
             top.masses = detail::masses_by_type(store, top.atoms.types);

@@ -7,12 +7,14 @@
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/domain.hpp>
 #include <tsubu/domain/triclinic_box.hpp>
+#include <tsubu/io/restart_state.hpp>
 
 #include <array>     // std::array
 #include <cstddef>   // std::size_t
 #include <cstdint>   // std::int32_t, std::int64_t
 #include <optional>  // std::optional
 #include <string>    // std::string
+#include <utility>   // std::move
 #include <vector>    // std::vector
 
 namespace tsubu {
@@ -40,6 +42,19 @@ struct lammps_header {
     std::optional<vec<3>> tilt{};  ///< xy, xz, yz, of a tilted box
     std::vector<double> masses{};  ///< of types 1, 2, ...: [types], or none
 
+    /// For particles in this box: a domain or a triclinic_box; an axis that it has not goes from -0.5 to 0.5, as LAMMPS
+    /// wants it of two dimensions.
+    template <class Box>
+    [[nodiscard]] static lammps_header of(const Box& where, std::string title = {}) {
+        const restart_box shape(where);
+        lammps_header top{.title = std::move(title)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            top.lo[k] = k < shape.dimension ? shape.lo[k] : -0.5;
+            top.hi[k] = k < shape.dimension ? shape.hi[k] : 0.5;
+        }
+        if (shape.tilts != vec<3>{}) top.tilt = shape.tilts;
+        return top;
+    }
     /// The box as a domain. Which axes are periodic, data files do not say.
     /// @throws input_error if the box is tilted (use tilted_box), or no domain.
     [[nodiscard]] domain<3> box(const std::array<bool, 3>& periodic) const {

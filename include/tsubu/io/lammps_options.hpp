@@ -18,19 +18,19 @@ struct lammps_read_options {
     unknown_lines unknown = unknown_lines::refuse;
     bool allows_repeats = false;        ///< terms in which a particle is twice, such as a bond to itself
     bool velocities_may_lack = false;   ///< a file without Velocities leaves them 0, as in LAMMPS
-    std::size_t chunk = std::size_t{1} << 20;  ///< characters held at a time; no line may be longer
+    std::size_t chunk = std::size_t{1} << 20;  ///< characters held at a time; no line may be longer, nor than 65536
 };
 
 struct lammps_write_options {
     std::optional<atom_style> style{};  ///< else the least that has all fields of the store
-    /// Atoms and velocities by id, terms by their ids, and bonds from the lower id: bytes that do not depend on the order
-    /// of particles in the store, nor on who keeps terms.
+    /// Atoms and velocities by id, terms by their ids, and bonds from the lower id: bytes that do not depend on the
+    /// order of particles in the store, nor on who keeps terms.
     bool canonical = false;
     bool images = true;                        ///< image flags, if the store has them
     std::size_t chunk = std::size_t{1} << 20;  ///< characters held at a time, at least 1024
 };
 
 /// The sections that have a row per particle or per term, in the order in which they are written.
-enum class lammps_section { atoms, velocities, bonds, angles, dihedrals, impropers };
+enum class lammps_section { atom_rows, velocity_rows, bond_rows, angle_rows, dihedral_rows, improper_rows };
 
 }  // namespace tsubu

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <tsubu/core/error.hpp>
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/id_map.hpp>
 #include <tsubu/io/atom_style.hpp>
+#include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/detail/atom_row.hpp>
 #include <tsubu/io/detail/field_named.hpp>
 #include <tsubu/io/detail/header_reader.hpp>
@@ -17,18 +19,20 @@
 #include <tsubu/io/detail/term_row.hpp>
 #include <tsubu/io/lammps_header.hpp>
 #include <tsubu/io/lammps_options.hpp>
-#include <tsubu/io/text_source.hpp>
 #include <tsubu/store/particle_store.hpp>
 #include <tsubu/store/term.hpp>
 #include <tsubu/store/topology.hpp>
 
-#include <algorithm>    // std::find, std::min
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::int32_t, std::int64_t
+#include <algorithm>    // std::copy, std::equal, std::find, std::min
+#include <array>        // std::array
+#include <cstddef>      // std::ptrdiff_t, std::size_t
+#include <cstdint>      // std::int32_t, std::int64_t, std::uint64_t
+#include <numeric>      // std::iota
+#include <span>         // std::span
 #include <string>       // std::string
 #include <string_view>  // std::string_view
 #include <type_traits>  // std::is_same_v, std::remove_const_t, std::remove_cv_t
-#include <utility>      // std::move
+#include <utility>      // std::exchange, std::move
 #include <vector>       // std::vector
 
 namespace tsubu {
@@ -48,20 +52,21 @@ struct every_particle {
 ///     const auto mine = tsubu::brick_decomposition(box, ranks).subdomain(rank);
 ///     file.read(grains, [&](const auto& x) { return mine.owns_extended(box.wrap(x).position); });
 ///
-/// Which columns and sections are stored follows from the fields of the store: id, position, species, and by their names
-/// mass, radius, density, charge, molecule, image, velocity, angular_velocity, and the lists bonds, angles, dihedrals,
-/// impropers. A field that the style of the file has not is an error, never 0. All of the file is checked, stored or not.
+/// Which columns and sections are stored follows from the fields of the store: id, position, species, and by their
+/// names mass, radius, density, charge, molecule, image, velocity, angular_velocity, and the lists bonds, angles,
+/// dihedrals, impropers. A field that the style of the file has not is an error, never 0. All of the file is checked,
+/// stored or not.
 ///
 /// A rank that keeps a part cannot tell an id that nobody has from one that another rank keeps; but it tells ids of its
-/// own that are repeated or missing, and the number of rows, so that an unknown id is missed by no file: where all ranks
-/// together find each of n ids once in n rows, no row is left for another. Terms: compare the sum of topology::count over
-/// all ranks with header().
+/// own that are repeated or missing, and the number of rows, so that an unknown id is missed by no file: where all
+/// ranks together find each of n ids once in n rows, no row is left for another. Terms: compare the sum of
+/// topology::count over all ranks with header().
 ///
-/// @tparam Source  a text_source.
+/// @tparam Source  a byte_source.
 ///
 /// Invalidates: read ends what it read from: a second read is an error.
 /// Source: C3, C5 to C11.
-template <text_source Source>
+template <byte_source Source>
 class lammps_reader {
     using lines_type = detail::line_reader<Source>;
     using row_type = detail::row<lines_type>;
@@ -117,7 +122,18 @@ private:
     void finish(reading<Store>& now);
     void skip_section();
 
-    // Goes through the rows of a section, calls each(row), and stops at the first line of the next section.
+    // Goes through the rows of a section, calls each(row), and stops at the first line of the next section. Whatever
+    // goes wrong, settle() is called, and tells first what was wrong with the rows before.
+    template <class Each, class Settle>
+    void rows(const char* name, std::int64_t count, Each&& each, Settle&& settle) {
+        try {
+            rows(name, count, each);
+        } catch (const input_error&) {
+            settle();
+            throw;
+        }
+        settle();
+    }
     template <class Each>
     void rows(const char* name, std::int64_t count, Each&& each) {
         std::int64_t read = 0;
@@ -137,14 +153,11 @@ private:
                         "is the file whole?");
     }
     void choose_style(std::string_view hint);
-    // The place of a particle of this rank; absent if another has it. Fails if nobody has.
-    template <class Store>
-    [[nodiscard]] index_t find(const reading<Store>& now, std::int64_t name, const row_type& row) const {
-        const auto i = now.where.find(name);
-        if (i == absent && now.keeps_all) [[unlikely]]
-            row.fail("no particle has the id " + std::to_string(name), "correct the id, or add the particle to Atoms");
-        return i;
+    [[noreturn]] void refuse_unknown(std::int64_t name, std::uint64_t line) {
+        lines_.fail_at(line, "no particle has the id " + std::to_string(name),
+                       "correct the id, or add the particle to Atoms");
     }
+    static constexpr std::size_t rows_at_once = 512;  // whose ids are looked up together; they stay in the caches
 
     lammps_read_options with_;
     lines_type lines_;
@@ -156,12 +169,14 @@ private:
     bool was_read_ = false;
 };
 
-template <text_source Source>
+template <byte_source Source>
 template <class Newton, class Store, class Keep>
 void lammps_reader<Source>::read(Store& store, Keep&& keep) {
-    static_assert(detail::has_named<Store, "id">, "particles are found by their ids: give the store the field tsubu::id");
+    static_assert(detail::has_named<Store, "id">,
+                  "particles are found by their ids: give the store the field tsubu::id");
     if (store.size() != 0)
-        detail::raise<input_error>("lammps_reader::read", "the store has " + std::to_string(store.size()) + " particles",
+        detail::raise<input_error>("lammps_reader::read",
+                                   "the store has " + std::to_string(store.size()) + " particles",
                                    "read into an empty one");
     if (was_read_)
         detail::raise<input_error>("lammps_reader::read", std::string(lines_.name()) + " was read before",
@@ -174,7 +189,7 @@ void lammps_reader<Source>::read(Store& store, Keep&& keep) {
     store = std::move(now.particles);
 }
 
-template <text_source Source>
+template <byte_source Source>
 template <class Newton, class Store, class Keep>
 void lammps_reader<Source>::read_section(reading<Store>& now, Keep& keep) {
     const auto name = detail::with_single_blanks(lines_.content());
@@ -201,7 +216,7 @@ void lammps_reader<Source>::read_section(reading<Store>& now, Keep& keep) {
         skip_section();
 }
 
-template <text_source Source>
+template <byte_source Source>
 template <class Store, class Keep>
 void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
     choose_style(lines_.comment());
@@ -247,43 +262,63 @@ void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
     if (now.where.size() == names.size()) return;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (const auto first = static_cast<std::size_t>(now.where.find(names[i])); first != i)
-            detail::raise<input_error>("lammps_reader",
-                                       std::string(lines_.name()) + ", line " + std::to_string(places[i]) +
-                                           ": a second particle with the id " + std::to_string(names[i]) +
-                                           ", which line " + std::to_string(places[first]) + " has",
-                                       "give each particle an id of its own");
+            lines_.fail_at(places[i],
+                           "a second particle with the id " + std::to_string(names[i]) + ", which line " +
+                               std::to_string(places[first]) + " has",
+                           "give each particle an id of its own");
 }
 
-template <text_source Source>
+template <byte_source Source>
 template <class Store>
 void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     using real = detail::scalar_named<Store, "velocity">;
     using angular = detail::scalar_named<Store, "angular_velocity">;
     std::vector<bool> seen(now.names.size());
     std::size_t expected = 0;  // most files list velocities in the order of atoms: then nothing is to be looked up
-    rows("Velocities", header_.atoms.rows, [&](row_type& row) {
-        const auto name = row.template next_from<std::int64_t>(1, "the id");
-        vec<3, real> v{};
-        for (auto& one : v) one = row.template next<real>("a velocity");
-        vec<3, angular> w{};
-        if (is_sphere(style_))
-            for (auto& one : w) one = row.template next<angular>("an angular velocity");
-        row.expect_end();
-        auto i = expected;
-        if (i >= now.names.size() || now.names[i] != name) {
-            const auto at = find(now, name, row);
-            if (at == absent) return;
-            i = static_cast<std::size_t>(at);
+    struct {
+        std::array<std::int64_t, rows_at_once> names;
+        std::array<std::uint64_t, rows_at_once> lines;
+        std::array<vec<3, real>, rows_at_once> v;
+        std::array<vec<3, angular>, rows_at_once> w;
+        std::size_t count = 0;
+    } held;
+    std::array<index_t, rows_at_once> places;
+    const auto settle = [&] {
+        const auto count = std::exchange(held.count, 0);  // first: who throws here is not asked again
+        const auto names = std::span<const std::int64_t>(held.names).first(count);
+        if (count <= now.names.size() - expected &&
+            std::equal(names.begin(), names.end(), now.names.begin() + static_cast<std::ptrdiff_t>(expected)))
+            std::iota(places.begin(), places.begin() + count, static_cast<index_t>(expected));
+        else
+            now.where.find(names, std::span(places).first(count));
+        for (std::size_t k = 0; k < count; ++k) {
+            if (places[k] == absent) {
+                if (now.keeps_all) refuse_unknown(names[k], held.lines[k]);
+                continue;
+            }
+            const auto i = static_cast<std::size_t>(places[k]);
+            if (seen[i]) [[unlikely]]
+                lines_.fail_at(held.lines[k], "a second velocity of id " + std::to_string(names[k]),
+                               "leave one of them");
+            seen[i] = true;
+            expected = i + 1;
+            if constexpr (detail::has_named<Store, "velocity">)
+                detail::set_components(now.particles[detail::field_named<Store, "velocity">{}][i], held.v[k]);
+            if constexpr (detail::has_named<Store, "angular_velocity">)
+                detail::set_components(now.particles[detail::field_named<Store, "angular_velocity">{}][i], held.w[k]);
         }
-        expected = i + 1;
-        if (seen[i]) [[unlikely]]
-            row.fail("a second velocity of id " + std::to_string(name), "leave one of them");
-        seen[i] = true;
-        if constexpr (detail::has_named<Store, "velocity">)
-            detail::set_components(now.particles[detail::field_named<Store, "velocity">{}][i], v);
-        if constexpr (detail::has_named<Store, "angular_velocity">)
-            detail::set_components(now.particles[detail::field_named<Store, "angular_velocity">{}][i], w);
-    });
+    };
+    const auto each = [&](row_type& row) {
+        if (held.count == rows_at_once) settle();
+        held.names[held.count] = row.template next_from<std::int64_t>(1, "the id");
+        held.lines[held.count] = lines_.number();
+        for (auto& one : held.v[held.count]) one = row.template next<real>("a velocity");
+        if (is_sphere(style_))
+            for (auto& one : held.w[held.count]) one = row.template next<angular>("an angular velocity");
+        row.expect_end();
+        ++held.count;
+    };
+    rows("Velocities", header_.atoms.rows, each, settle);
     if (const auto missed = std::find(seen.begin(), seen.end(), false); missed != seen.end()) {
         const auto i = static_cast<std::size_t>(missed - seen.begin());
         lines_.fail("Velocities, which end here, have none of id " +
@@ -293,28 +328,59 @@ void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     now.has_velocities = true;
 }
 
-template <text_source Source>
+template <byte_source Source>
 template <class Newton, auto Field, class Store>
 void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, lammps_count count) {
     using field_type = std::remove_cv_t<decltype(Field)>;
-    constexpr auto order = field_type::value_type::element_type::order;
-    rows(name, count.rows, [&](row_type& row) {
+    using rules = topology<Field, Newton>;
+    constexpr auto order = rules::order;
+    struct {
+        std::array<term<order>, rows_at_once> terms;
+        std::array<std::int64_t, rows_at_once * order> names;
+        std::array<std::uint64_t, rows_at_once> lines;
+        std::size_t count = 0;
+    } held;
+    std::array<index_t, rows_at_once * order> places;
+    const auto settle = [&] {
+        const auto terms = std::exchange(held.count, 0);  // first: who throws here is not asked again
+        now.where.find(std::span<const std::int64_t>(held.names).first(terms * order),
+                       std::span(places).first(terms * order));
+        if constexpr (Store::template has<field_type>) {
+            const auto lists = now.particles[Field];  // they lie anywhere: asked for together, waited for once
+            for (std::size_t t = 0; t < terms; ++t)
+                for (std::size_t k = 0; k < order; ++k)
+                    if (const auto i = places[t * order + k];
+                        i != absent && rules::keeps(held.terms[t], held.names[t * order + k]))
+                        detail::prefetch<true>(lists[static_cast<std::size_t>(i)].end());
+        }
+        for (std::size_t t = 0; t < terms; ++t) {
+            const auto& one = held.terms[t];
+            const auto* const of_term = places.data() + t * order;
+            for (std::size_t k = 0; k < order && now.keeps_all; ++k)
+                if (of_term[k] == absent) [[unlikely]]
+                    refuse_unknown(one.ids[k], held.lines[t]);
+            if constexpr (Store::template has<field_type>)
+                rules::insert(now.particles, detail::places_of_term<order>(one, of_term), one, with_.allows_repeats);
+        }
+    };
+    const auto each = [&](row_type& row) {
+        if (held.count == rows_at_once) settle();
         const auto one = detail::read_term<order>(row, count.types, with_.allows_repeats);
-        if (now.keeps_all)
-            for (const auto particle : one.ids) static_cast<void>(find(now, particle, row));
-        if constexpr (Store::template has<field_type>)
-            topology<Field, Newton>::insert(now.particles, now.where, one, with_.allows_repeats);
-    });
+        held.terms[held.count] = one;
+        std::copy(one.ids.begin(), one.ids.end(), held.names.begin() + static_cast<std::ptrdiff_t>(order * held.count));
+        held.lines[held.count++] = lines_.number();
+    };
+    rows(name, count.rows, each, settle);
 }
 
-template <text_source Source>
+template <byte_source Source>
 void lammps_reader<Source>::read_masses() {
     detail::mass_table table;
     rows("Masses", header_.atoms.types, [&](row_type& row) { table.add(row, header_.atoms.types); });
     header_.masses = table.by_type();
 }
 
-template <text_source Source>
+template <byte_source Source>
 void lammps_reader<Source>::skip_section() {
     if (with_.unknown == unknown_lines::refuse)
         lines_.fail("this is no section that tsubu reads", "skip unknown sections by option, or remove it");
@@ -323,7 +389,7 @@ void lammps_reader<Source>::skip_section() {
         if (detail::is_letter(lines_.content().front())) return;
 }
 
-template <text_source Source>
+template <byte_source Source>
 void lammps_reader<Source>::choose_style(std::string_view hint) {
     const auto hinted = atom_style_named(hint);
     if (with_.style && !hint.empty() && hinted != with_.style)
@@ -334,7 +400,7 @@ void lammps_reader<Source>::choose_style(std::string_view hint) {
     style_ = with_.style ? *with_.style : *hinted;
 }
 
-template <text_source Source>
+template <byte_source Source>
 template <class Store>
 void lammps_reader<Source>::finish(reading<Store>& now) {
     const auto expect = [&](const char* name, std::int64_t rows, const char* kind) {

@@ -5,7 +5,6 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
-#include <tsubu/core/types.hpp>
 #include <tsubu/io/atom_style.hpp>
 #include <tsubu/io/detail/atom_row.hpp>
 #include <tsubu/io/detail/field_named.hpp>
@@ -22,7 +21,7 @@
 #include <cmath>        // std::isfinite
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint64_t
-#include <numeric>      // std::iota
+#include <span>         // std::span
 #include <string>       // std::to_string
 #include <string_view>  // std::string_view
 #include <utility>      // std::in_range, std::move, std::pair
@@ -30,7 +29,8 @@
 
 namespace tsubu {
 
-/// Writes a LAMMPS data file, or the part of it that one rank has: doubles in the shortest form that reads back exactly.
+/// Writes a LAMMPS data file, or the part of it that one rank has: doubles in the shortest form that reads back
+/// exactly.
 ///
 ///     std::string text;
 ///     tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; });
@@ -39,7 +39,7 @@ namespace tsubu {
 /// Ranks write one after the other: rank 0 header() and head(), then each its rows from k0 on, an exclusive scan of
 /// count(), section by section.
 ///
-///     out.rows(tsubu::lammps_section::bonds, grains, k0);        // returns how many
+///     out.rows(tsubu::lammps_section::bond_rows, grains, k0);        // returns how many
 ///
 /// What is written follows from the fields of the store, as in lammps_reader; a molecule that the store does not have
 /// is 0. Ghosts are not written.
@@ -77,7 +77,7 @@ public:
     void head(lammps_section section) {
         out_.put('\n');
         out_.put(detail::section_names[static_cast<std::size_t>(section)]);
-        if (section == lammps_section::atoms) {
+        if (section == lammps_section::atom_rows) {
             out_.put(" # ");
             out_.put(name_of(style<Store>()));
         }
@@ -85,7 +85,13 @@ public:
     }
     /// The rows of a section, the terms numbered from k0 on. @return how many: count(section, store).
     template <class Store>
-    std::uint64_t rows(lammps_section section, const Store& store, std::uint64_t k0 = 1);
+    std::uint64_t rows(lammps_section section, const Store& store, std::uint64_t k0 = 1) {
+        return rows(section, std::span<const Store>(&store, 1), k0);
+    }
+    /// Of several parts, such as those that ranks have sent: one after the other; by the option canonical sorted over
+    /// all of them, so that the bytes do not depend on how many there are, and who has what (C11).
+    template <class Store>
+    std::uint64_t rows(lammps_section section, std::span<const Store> parts, std::uint64_t k0 = 1);
     /// How many rows a section of this store has.
     template <class Store>
     [[nodiscard]] static std::uint64_t count(lammps_section section, const Store& store);
@@ -101,22 +107,21 @@ public:
 
 private:
     template <class Store>
-    void write_atoms(const Store& store);
+    std::uint64_t write_atoms(std::span<const Store> parts);
     template <class Store>
-    void write_velocities(const Store& store);
+    std::uint64_t write_velocities(std::span<const Store> parts);
     template <auto Field, class Store>
-    std::uint64_t write_terms(const Store& store, std::uint64_t k0);
+    std::uint64_t write_terms(std::span<const Store> parts, std::uint64_t k0);
 
-    // Owned particles in the order in which they are written.
+    // Owned particles in the order in which they are written: which part, and the index there.
     template <class Store>
-    [[nodiscard]] std::vector<index_t> order_of(const Store& store) const {
-        std::vector<index_t> order(store.owned_count());
-        std::iota(order.begin(), order.end(), index_t{0});
+    [[nodiscard]] std::vector<std::pair<const Store*, std::size_t>> order_of(std::span<const Store> parts) const {
+        std::vector<std::pair<const Store*, std::size_t>> order;
+        for (const auto& part : parts)
+            for (std::size_t i = 0; i < part.owned_count(); ++i) order.emplace_back(&part, i);
         if (with_.canonical) {
-            const auto names = store[detail::field_named<Store, "id">{}];
-            std::sort(order.begin(), order.end(), [&](index_t a, index_t b) {
-                return names[static_cast<std::size_t>(a)] < names[static_cast<std::size_t>(b)];
-            });
+            const auto name = [](const auto& at) { return (*at.first)[detail::field_named<Store, "id">{}][at.second]; };
+            std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return name(a) < name(b); });
         }
         return order;
     }
@@ -124,7 +129,8 @@ private:
     void put_finite(Number x, std::int64_t name) {
         if (!std::isfinite(x)) [[unlikely]]
             detail::raise<input_error>("lammps_writer",
-                                       "a value " + detail::shown(x) + " of the particle with id " + std::to_string(name),
+                                       "a value " + detail::shown(x) + " of the particle with id " +
+                                           std::to_string(name),
                                        "a file holds finite numbers");
         out_.put(' ');
         out_.put_number(x);
@@ -188,7 +194,8 @@ void lammps_writer<Sink, Newton>::header(const lammps_header& top) {
     for (std::size_t k = 0; k < top.masses.size(); ++k) {
         if (!(top.masses[k] > 0) || !std::isfinite(top.masses[k]))
             detail::raise<input_error>("lammps_writer::header",
-                                       "a mass of " + detail::shown(top.masses[k]) + " for type " + std::to_string(k + 1),
+                                       "a mass of " + detail::shown(top.masses[k]) + " for type " +
+                                           std::to_string(k + 1),
                                        "give each type one above 0");
         out_.put_numbers(k + 1, top.masses[k]);
         out_.put('\n');
@@ -198,7 +205,7 @@ void lammps_writer<Sink, Newton>::header(const lammps_header& top) {
 template <text_sink Sink, class Newton>
 template <class Store>
 std::uint64_t lammps_writer<Sink, Newton>::count(lammps_section section, const Store& store) {
-    if (section == lammps_section::atoms || section == lammps_section::velocities)
+    if (section == lammps_section::atom_rows || section == lammps_section::velocity_rows)
         return detail::has_section<Store>(section) ? store.owned_count() : 0;
     std::uint64_t found = 0;
     detail::with_terms<Store>(section, [&]<auto Field>() { found = topology<Field, Newton>::count(store); });
@@ -207,32 +214,27 @@ std::uint64_t lammps_writer<Sink, Newton>::count(lammps_section section, const S
 
 template <text_sink Sink, class Newton>
 template <class Store>
-std::uint64_t lammps_writer<Sink, Newton>::rows(lammps_section section, const Store& store, std::uint64_t k0) {
+std::uint64_t lammps_writer<Sink, Newton>::rows(lammps_section section, std::span<const Store> parts,
+                                                std::uint64_t k0) {
     static_assert(detail::has_named<Store, "id"> && detail::has_named<Store, "position">,
                   "files tell ids and positions: give the store the fields tsubu::id and tsubu::position");
     if (!detail::has_section<Store>(section)) return 0;
-    if (section == lammps_section::atoms) {
-        write_atoms(store);
-        return store.owned_count();
-    }
-    if (section == lammps_section::velocities) {
-        write_velocities(store);
-        return store.owned_count();
-    }
+    if (section == lammps_section::atom_rows) return write_atoms(parts);
+    if (section == lammps_section::velocity_rows) return write_velocities(parts);
     std::uint64_t written = 0;
-    detail::with_terms<Store>(section, [&]<auto Field>() { written = write_terms<Field>(store, k0); });
+    detail::with_terms<Store>(section, [&]<auto Field>() { written = write_terms<Field>(parts, k0); });
     return written;
 }
 
 template <text_sink Sink, class Newton>
 template <class Store>
-void lammps_writer<Sink, Newton>::write_atoms(const Store& store) {
+std::uint64_t lammps_writer<Sink, Newton>::write_atoms(std::span<const Store> parts) {
     using detail::value_at;
     const auto written = style<Store>();
     detail::check_style<Store>(written);
-    const auto positions = store[detail::field_named<Store, "position">{}];
-    for (const auto at : order_of(store)) {
-        const auto i = static_cast<std::size_t>(at);
+    const auto order = order_of(parts);
+    for (const auto& [part, i] : order) {
+        const auto& store = *part;
         const auto name = name_at(store, i);
         out_.put_number(name);
         if (has_molecule(written)) {
@@ -251,7 +253,8 @@ void lammps_writer<Sink, Newton>::write_atoms(const Store& store) {
         }
         if (has_charge(written)) put_finite(static_cast<double>(value_at<"charge">(store, i, 0.0)), name);
         using real = detail::scalar_named<Store, "position">;
-        for (const auto x : detail::three_components<real>(positions[i])) put_finite(x, name);
+        for (const auto x : detail::three_components<real>(store[detail::field_named<Store, "position">{}][i]))
+            put_finite(x, name);
         if constexpr (detail::has_named<Store, "image">)
             if (with_.images) {
                 const auto periods = detail::three_components<std::int64_t>(value_at<"image">(store, i, 0));
@@ -262,16 +265,18 @@ void lammps_writer<Sink, Newton>::write_atoms(const Store& store) {
             }
         out_.put('\n');
     }
+    return order.size();
 }
 
 template <text_sink Sink, class Newton>
 template <class Store>
-void lammps_writer<Sink, Newton>::write_velocities(const Store& store) {
+std::uint64_t lammps_writer<Sink, Newton>::write_velocities(std::span<const Store> parts) {
     using real = detail::scalar_named<Store, "velocity">;
     using angular = detail::scalar_named<Store, "angular_velocity">;
     const bool with_angular = is_sphere(style<Store>());
-    for (const auto at : order_of(store)) {
-        const auto i = static_cast<std::size_t>(at);
+    const auto order = order_of(parts);
+    for (const auto& [part, i] : order) {
+        const auto& store = *part;
         const auto name = name_at(store, i);
         out_.put_number(name);
         for (const auto v : detail::three_components<real>(detail::value_at<"velocity">(store, i, vec<3, real>{})))
@@ -282,11 +287,12 @@ void lammps_writer<Sink, Newton>::write_velocities(const Store& store) {
                 put_finite(w, name);
         out_.put('\n');
     }
+    return order.size();
 }
 
 template <text_sink Sink, class Newton>
 template <auto Field, class Store>
-std::uint64_t lammps_writer<Sink, Newton>::write_terms(const Store& store, std::uint64_t k0) {
+std::uint64_t lammps_writer<Sink, Newton>::write_terms(std::span<const Store> parts, std::uint64_t k0) {
     using terms = topology<Field, Newton>;
     using particle_ids = typename terms::particle_ids;
     auto k = k0;
@@ -300,14 +306,15 @@ std::uint64_t lammps_writer<Sink, Newton>::write_terms(const Store& store, std::
         ++k;
     };
     if (!with_.canonical) {
-        terms::rows(store, put);
+        for (const auto& part : parts) terms::rows(part, put);
         return k - k0;
     }
     std::vector<std::pair<particle_ids, std::int64_t>> all;
-    terms::rows(store, [&](std::int64_t type, particle_ids ids) {
-        if (terms::order == 2 && ids[1] < ids[0]) std::swap(ids[0], ids[1]);  // a bond has no direction
-        all.emplace_back(ids, type);
-    });
+    for (const auto& part : parts)
+        terms::rows(part, [&](std::int64_t type, particle_ids ids) {
+            if (terms::order == 2 && ids[1] < ids[0]) std::swap(ids[0], ids[1]);  // a bond has no direction
+            all.emplace_back(ids, type);
+        });
     std::sort(all.begin(), all.end());
     for (const auto& [ids, type] : all) put(type, ids);
     return k - k0;

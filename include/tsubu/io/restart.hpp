@@ -223,15 +223,18 @@ public:
         return particles;
     }
 
-    /// Adds the particles for which keep(particle) holds as owned ones; fields that are not in the set are zero.
+    /// Adds the particles for which keep(particle) holds as owned ones; fields that are not in the set are zero. The
+    /// set may be some of the fields of the file, in any order: what is not asked for is checked, and passed over.
     /// Memory: what is kept, and one block. Strong guarantee; views end in any case.
-    /// @param set    the fields of the file, in its order
+    /// @param set    fields of the file: of its names, types and units
     /// @param share  which blocks; others are not read
-    /// @throws input_error if the fields differ or the file is damaged, or the store has ghosts; limit_error from 2^31
+    /// @throws input_error if the file lacks a field or is damaged, or the store has ghosts; limit_error from 2^31
     ///         particles on; file_error if the disk fails.
     template <auto... F, class Store, class Keep = keep_all>
     void read(Store& store, fields<F...> set, Keep&& keep = {}, restart_share share = {}) const {
-        detail::check_fields(source_.name(), header_.fields, detail::restart_fields(set));
+        static_assert(sizeof...(F) > 0, "ask for a field of the file");
+        const auto wanted = detail::restart_fields(set);
+        detail::check_fields(source_.name(), header_.fields, wanted);
         if (share.ranks == 0 || share.rank >= share.ranks)
             detail::raise<input_error>("restart_reader::read",
                                        "share " + std::to_string(share.rank) + " of " + std::to_string(share.ranks),
@@ -239,7 +242,10 @@ public:
         const auto before = store.size();
         store.add_owned(0);  // refuses ghosts, before any work
         try {
-            read_parts(store, set, keep, share);
+            if (header_.fields == wanted)
+                read_parts(store, set, keep, share, nullptr);
+            else if (const detail::restart_layout layout(header_.fields, wanted); true)
+                read_parts(store, set, keep, share, &layout);
         } catch (...) {
             drop(store, before);
             throw;
@@ -258,9 +264,12 @@ private:
     };
 
     template <auto... F, class Store, class Keep>
-    void read_parts(Store& store, fields<F...> set, Keep& keep, restart_share share) const {
+    void read_parts(Store& store, fields<F...> set, Keep& keep, restart_share share,
+                    const detail::restart_layout* layout) const {
         particle_store<fields<F...>> met;  // one block
         buffer<std::uint64_t> words;
+        std::vector<std::uint64_t> chosen;
+        const auto least = layout == nullptr ? least_words(set) : layout->least();
         std::uint64_t next = 0;
         auto at = 8 * header_.words;
         for (std::size_t p = 0; p < header_.parts.size(); ++p) {
@@ -269,12 +278,21 @@ private:
             std::uint64_t particles = 0;
             for (std::uint64_t b = 0; b < part.blocks; ++b) {
                 const place here{at, p, b};
-                const auto block = read_header(here, end, least_words(set));
+                const auto block = read_header(here, end, least);
                 particles += block[3];
                 at += 8 * head;
-                if (next++ % share.ranks == share.rank)
-                    take(store, set, keep, met, read_body(here, block, words), static_cast<std::size_t>(block[3]),
-                         here);
+                if (next++ % share.ranks == share.rank) {
+                    const auto count = static_cast<std::size_t>(block[3]);
+                    auto body = read_body(here, block, words);
+                    if (layout != nullptr) {
+                        chosen.clear();
+                        const auto used = layout->choose(body, count, chosen);
+                        if (!used) refuse(here, "its words end too early");
+                        if (*used != body.size()) refuse(here, "it has more words than its particles");
+                        body = chosen;
+                    }
+                    take(store, set, keep, met, body, count, here);
+                }
                 at += 8 * block[4];
             }
             if (at != end || particles != part.particles)

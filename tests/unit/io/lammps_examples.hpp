@@ -91,7 +91,8 @@ tsubu::lammps_header read_text(std::string_view text, Store& store, const tsubu:
 }
 
 template <class Newton = tsubu::newton_on, class Store>
-std::string text_of(const Store& store, const tsubu::lammps_header& top, const tsubu::lammps_write_options& options = {}) {
+std::string text_of(const Store& store, const tsubu::lammps_header& top,
+                    const tsubu::lammps_write_options& options = {}) {
     std::string text;
     tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; }, options, Newton{});
     out.write(store, top);

@@ -4,17 +4,20 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
+#include <system_error>
+
+#include <unistd.h>
 
 class scratch_folder {
 public:
-    scratch_folder() : path_((std::filesystem::temp_directory_path() / "tsubu_XXXXXX").string()) {
-        if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no folder " + path_);
+    scratch_folder() {
+        static int last = 0;  // the folder of a test that was killed may still be there
+        do path_ = (std::filesystem::temp_directory_path() / name(++last)).string();
+        while (!std::filesystem::create_directory(path_));
     }
     scratch_folder(const scratch_folder&) = delete;
     scratch_folder& operator=(const scratch_folder&) = delete;
@@ -31,6 +34,10 @@ public:
     }
 
 private:
+    [[nodiscard]] static std::string name(int number) {
+        return "tsubu_test_" + std::to_string(::getpid()) + "_" + std::to_string(number);
+    }
+
     std::string path_;
 };
 

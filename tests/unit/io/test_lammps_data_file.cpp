@@ -3,30 +3,20 @@
 
 #include "support/catch.hpp"
 #include "unit/io/lammps_examples.hpp"
+#include "unit/io/scratch_folder.hpp"
 #include "unit/thrown.hpp"
 
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <string>
 
-namespace {
-
-std::string content(const std::string& path) {
-    tsubu::file_source file(path);
-    std::string text(file.size(), ' ');
-    text.resize(file.read(text));
-    return text;
-}
-
-}  // namespace
-
 TEST_CASE("a file is written and read in one call each", "[io][lammps_data_file]") {
-    const std::string path = "tsubu_test_lammps_data_file.lmp";
+    const scratch_folder folder;
+    const auto path = folder / "full.lmp";
     full_store<> g;
     const auto top = read_text<tsubu::newton_off>(full_text, g);
     tsubu::write_lammps<tsubu::newton_off>(path, g, top);
-    const auto written = content(path);
+    const auto written = bytes_of(path);
     CHECK(written == text_of<tsubu::newton_off>(g, top));
     full_store<> h;
     CHECK(tsubu::read_lammps<tsubu::newton_off>(path, h) == top);
@@ -34,18 +24,20 @@ TEST_CASE("a file is written and read in one call each", "[io][lammps_data_file]
 
     g[tsubu::charge][3] = std::numeric_limits<double>::infinity();
     CHECK(says(thrown<tsubu::input_error>([&] { tsubu::write_lammps(path, g, top); }), "a value inf"));
-    CHECK(content(path) == written);  // as it was
-    CHECK(says(thrown<tsubu::input_error>([&] { content(path + ".part"); }), "No such file"));
-    static_cast<void>(std::remove(path.c_str()));
+    CHECK(bytes_of(path) == written);  // as it was
+    CHECK(folder.files() == 1);
     full_store<> none;
-    CHECK(says(thrown<tsubu::input_error>([&] { tsubu::read_lammps(path, none); }), path + ": No such file"));
+    const auto nowhere = folder / "nowhere.lmp";
+    CHECK(says(thrown<tsubu::file_error>([&] { tsubu::read_lammps(nowhere, none); }), nowhere + ": No such file"));
 }
 
 TEST_CASE("a file is read in pieces far smaller than it is", "[io][lammps_data_file]") {
-    const std::string path = "tsubu_test_lammps_pieces.lmp";
+    const scratch_folder folder;
+    const auto path = folder / "many.lmp";
     atomic_store g;
     for (std::int64_t name = 1; name <= 20000; ++name)
-        g.push_back(tsubu::id = name, tsubu::species = 1, tsubu::position<3> = {1.0 / static_cast<double>(name), 0.5, 0.5});
+        g.push_back(tsubu::id = name, tsubu::species = 1,
+                    tsubu::position<3> = {1.0 / static_cast<double>(name), 0.5, 0.5});
     tsubu::write_lammps(path, g, {.title = "many", .lo = {0, 0, 0}, .hi = {1, 1, 1}}, {.chunk = 1024});
     atomic_store h;
     tsubu::read_lammps(path, h, {.chunk = 100});
@@ -54,7 +46,6 @@ TEST_CASE("a file is read in pieces far smaller than it is", "[io][lammps_data_f
     for (std::size_t i = 0; i < g.size(); ++i)
         same = same && h[tsubu::id][i] == g[tsubu::id][i] && h[tsubu::position<3>][i] == g[tsubu::position<3>][i];
     CHECK(same);
-    static_cast<void>(std::remove(path.c_str()));
 }
 
 TEST_CASE("any text is read or refused", "[io][lammps_data_file][fuzz]") {

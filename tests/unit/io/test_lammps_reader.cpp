@@ -5,14 +5,17 @@
 #include "unit/io/lammps_examples.hpp"
 #include "unit/thrown.hpp"
 
+#include <tsubu/core/random.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
 #include <tsubu/store/aos.hpp>
 #include <tsubu/store/aosoa.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using tsubu::input_error;
@@ -34,6 +37,13 @@ std::string refusal_with(std::string_view part, std::string_view replacement) {
 
 const std::string atomic_text =
     "\n1 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\nAtoms # atomic\n\n1 1 0.5 0.5 0.5\n";
+/// Of n particles and some bonds.
+std::string heading(std::int64_t n, std::int64_t bonds = 0) {
+    return "many\n\n" + std::to_string(n) + " atoms\n1 atom types\n" + std::to_string(bonds) +
+           " bonds\n1 bond types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n";
+}
+using moving_store = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>>>;
+
 const std::string sphere_text =
     "grains\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n0.5 0 0.25 xy xz yz\n\n"
     "Atoms # sphere\n\n7 1 0.5 2500 0.1 0.2 0.3\n9 1 0 3 0.4 0.5 0.6\n\n"
@@ -41,8 +51,8 @@ const std::string sphere_text =
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("a file of style full is read whole, into any layout", "[io][lammps_reader][C3]", tsubu::soa, tsubu::aos,
-                   tsubu::aosoa<8>) {
+TEMPLATE_TEST_CASE("a file of style full is read whole, into any layout", "[io][lammps_reader][C3]", tsubu::soa,
+                   tsubu::aos, tsubu::aosoa<8>) {
     full_store<TestType> g;
     const auto top = read_text(full_text, g);
     CHECK(top.title == "four of a kind");
@@ -87,8 +97,8 @@ TEST_CASE("with Newton off each particle of a term keeps it", "[io][lammps_reade
 }
 
 TEST_CASE("a sphere has a radius, a mass and an angular velocity", "[io][lammps_reader]") {
-    using set = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::radius, tsubu::mass, tsubu::density, tsubu::velocity<3>,
-                              tsubu::angular_velocity<3>>;
+    using set = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::radius, tsubu::mass, tsubu::density,
+                              tsubu::velocity<3>, tsubu::angular_velocity<3>>;
     tsubu::particle_store<set> g;
     const auto top = read_text(sphere_text, g);
     CHECK(top.tilt == vec<3>{0.5, 0, 0.25});
@@ -124,13 +134,15 @@ TEST_CASE("fields that the file has not are an error", "[io][lammps_reader]") {
     using tsubu::fields;
     using tsubu::id;
     const auto lacks = [](const std::string& message, const char* field) {
-        return says(message, "line 8 \"Atoms # atomic\": atom style atomic has no " + std::string(field) + ", which the store");
+        return says(message,
+                    "line 8 \"Atoms # atomic\": atom style atomic has no " + std::string(field) + ", which the store");
     };
     CHECK(lacks(refusal<tsubu::particle_store<fields<id, tsubu::radius>>>(atomic_text), "radius"));
     CHECK(lacks(refusal<tsubu::particle_store<fields<id, tsubu::density>>>(atomic_text), "density"));
     CHECK(lacks(refusal<tsubu::particle_store<fields<id, tsubu::charge>>>(atomic_text), "charge"));
     CHECK(lacks(refusal<tsubu::particle_store<fields<id, tsubu::molecule>>>(atomic_text), "molecule"));
-    CHECK(lacks(refusal<tsubu::particle_store<fields<id, tsubu::angular_velocity<3>>>>(atomic_text), "angular_velocity"));
+    CHECK(
+        lacks(refusal<tsubu::particle_store<fields<id, tsubu::angular_velocity<3>>>>(atomic_text), "angular_velocity"));
     CHECK(says(refusal<tsubu::particle_store<fields<id, tsubu::mass>>>(atomic_text), "there is no section Masses"));
     using moving = tsubu::particle_store<fields<id, tsubu::velocity<3>>>;
     CHECK(says(refusal<moving>(atomic_text), "there is no section Velocities, but the store has them"));
@@ -145,7 +157,8 @@ TEST_CASE("a file may have comments, blank lines, CRLF, tabs and no last newline
     std::string crlf;
     for (const char c : full_text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
     std::string busy;
-    for (const char c : full_text) busy += c == '\n' ? std::string("  \t# a remark\n\n \n") : std::string(1, c == ' ' ? '\t' : c);
+    for (const char c : full_text)
+        busy += c == '\n' ? std::string("  \t# a remark\n\n \n") : std::string(1, c == ' ' ? '\t' : c);
     busy = with(busy, "Atoms\t#\tfull  \t# a remark", "Atoms # full");
     auto cut = full_text;
     cut.pop_back();
@@ -159,9 +172,11 @@ TEST_CASE("a file may have comments, blank lines, CRLF, tabs and no last newline
 
 TEST_CASE("errors name file, line, text and reason", "[io][lammps_reader]") {
     CHECK(refusal_with("10 1 1 0.25 0.1", "10 1 1 0.25 nan") ==
-          "tsubu::lammps_reader: some.lmp, line 26 \"10 1 1 0.25 nan 0 0 0 -1 0\": a coordinate \"nan\" is no finite number; "
+          "tsubu::lammps_reader: some.lmp, line 26 \"10 1 1 0.25 nan 0 0 0 -1 0\": a coordinate \"nan\" is no finite "
+          "number; "
           "write it like 1, -2.5 or 3e-7");
-    CHECK(says(refusal_with("\n10 1 1 0.25 0.1", "\n10 1 1 0.25 1e400"), "a coordinate \"1e400\" is beyond what 64 bits hold"));
+    CHECK(says(refusal_with("\n10 1 1 0.25 0.1", "\n10 1 1 0.25 1e400"),
+               "a coordinate \"1e400\" is beyond what 64 bits hold"));
     CHECK(says(refusal_with("\n10 1 1", "\n10.5 1 1"), "the id \"10.5\" is no integer"));
     CHECK(says(refusal_with("\n10 1 1", "\n1e1 1 1"), "the id \"1e1\" is no integer"));
     CHECK(says(refusal_with("\n10 1 1", "\n+10 1 1"), "the id \"+10\" is no integer"));
@@ -171,8 +186,9 @@ TEST_CASE("errors name file, line, text and reason", "[io][lammps_reader]") {
     CHECK(says(refusal_with("\n10 1 1", "\n-3 1 1"), "the id -3; it begins with 1"));
     CHECK(says(refusal_with("\n10 1 1", "\n10 1 3"), "type 3, but the header has 2 atom types"));
     CHECK(says(refusal_with("\n10 1 1", "\n10 1 0"), "the type 0"));
-    CHECK(says(refusal_with("\n10 1 1", "\n20 1 1"),
-               "some.lmp, line 26: a second particle with the id 20, which line 25 has"));
+    CHECK(
+        says(refusal_with("\n10 1 1", "\n20 1 1"),
+             "some.lmp, line 26 \"20 1 1 0.25 0.1 0 0 0 -1 0\": a second particle with the id 20, which line 25 has"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1\n"), "an image flag is missing"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1 0 0\n"), "\"0\" follows the last column"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1.5 0\n"), "an image flag \"-1.5\" is no integer"));
@@ -198,13 +214,126 @@ TEST_CASE("velocities are found by id, each exactly once", "[io][lammps_reader][
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n0 1 0 0\n"), "the id 0"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n-3 1 0 0\n"), "the id -3"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n41 1 0 0\n"), "no particle has the id 41"));
-    CHECK(says(refusal_with("\n10 1 0 0\n", "\n9223372036854775807 1 0 0\n"), "no particle has the id 9223372036854775807"));
+    CHECK(says(refusal_with("\n10 1 0 0\n", "\n9223372036854775807 1 0 0\n"),
+               "no particle has the id 9223372036854775807"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n40 1 0 0\n"), "a second velocity of id 40"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n10 1 0 0 7\n"), "\"7\" follows the last column"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n10 1 0 inf\n"), "a velocity \"inf\" is no finite number"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n"), "Velocities ends after 3 rows, but the header says 4"));
     CHECK(says(refusal_with("\n10 1 0 0\n", "\n10 1 0 0\n10 1 0 0\n"), "a second velocity of id 10"));
     CHECK(says(refusal_with("\n30 3 0 -0.125\n", "\n30 3 0 -0.125\n30 3 0 0\n"), "row 5 of Velocities"));
+}
+
+TEST_CASE("velocities come in any order", "[io][lammps_reader][C3]") {
+    constexpr std::int64_t n = 3000;
+    const auto head = heading(n);
+    std::string atoms = "\nAtoms # atomic\n\n";
+    for (std::int64_t k = 0; k < n; ++k) atoms += std::to_string(7 * k + 1) + " 1 0 0 0\n";
+    std::vector<std::int64_t> order(static_cast<std::size_t>(n));
+    for (std::int64_t k = 0; k < n; ++k) order[static_cast<std::size_t>(k)] = k;
+    tsubu::random_stream random(5);
+    const auto shuffle = [&](std::size_t first, std::size_t last) {
+        for (auto k = last; k > first + 1; --k) std::swap(order[k - 1], order[first + random.below(k - first)]);
+    };
+    const auto check = [&] {
+        std::string rows = "\nVelocities\n\n";
+        for (const auto k : order) rows += std::to_string(7 * k + 1) + " " + std::to_string(k) + " 0.5 0\n";
+        const auto text = head + atoms + rows;
+        moving_store g;
+        read_text(text, g);
+        bool right = g.size() == static_cast<std::size_t>(n);
+        for (std::size_t i = 0; right && i < g.size(); ++i)
+            right = g[tsubu::velocity<3>][i] == vec<3>{static_cast<double>(i), 0.5, 0};
+        CHECK(right);
+        moving_store part;  // what others keep is passed over
+        read_text(text, part, {}, [next = 0](const vec<3>&) mutable { return next++ % 3 == 1; });
+        right = part.size() == static_cast<std::size_t>(n / 3);
+        for (std::size_t i = 0; right && i < part.size(); ++i)
+            right = part[tsubu::velocity<3>][i] == vec<3>{static_cast<double>(3 * i + 1), 0.5, 0};
+        CHECK(right);
+        return text;
+    };
+    check();
+    std::reverse(order.begin(), order.end());
+    check();
+    std::reverse(order.begin(), order.end());
+    shuffle(1000, 1100);  // in the order of Atoms, but for a stretch
+    check();
+    shuffle(0, order.size());
+    const auto text = check();
+
+    // Of some thousand rows the first one that is wrong is told, with its line.
+    const auto line_of = [&](std::size_t at) {
+        return 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+    };
+    const auto section = text.find("Velocities\n\n") + 12;
+    const auto refused = [&](const std::string& changed) {
+        moving_store g;
+        auto message = thrown<input_error>([&] { read_text(changed, g); });
+        CHECK(g.size() == 0);
+        return message;
+    };
+    for (const std::int64_t k : {order[0], order[511], order[512], order[1500], order.back()}) {
+        const auto row = std::to_string(7 * k + 1) + " " + std::to_string(k) + " 0.5 0";
+        const auto at = text.find("\n" + row + "\n", section - 1) + 1;
+        const auto where = "some.lmp, line " + std::to_string(line_of(at)) + " \"";
+        auto unknown = text;
+        unknown.replace(at, row.size(), "5 1 2 3");
+        CHECK(says(refused(unknown), where + "5 1 2 3\": no particle has the id 5"));
+        const auto last = unknown.rfind(" 0.5 0");
+        if (at < last - 40) {  // of two faults the first one, though it is found later
+            auto two = unknown;
+            two.replace(last, 6, " 0.5 x");
+            CHECK(says(refused(two), where + "5 1 2 3\": no particle has the id 5"));
+        }
+        auto missing = text;
+        missing.erase(at, row.size() + 1);
+        CHECK(says(refused(missing), "Velocities ends after 2999 rows, but the header says 3000"));
+        if (k == order[0]) continue;
+        const auto again = std::to_string(7 * order[0] + 1) + " 0 0 0";
+        auto repeated = text;
+        repeated.replace(at, row.size(), again);
+        CHECK(
+            says(refused(repeated), where + again + "\": a second velocity of id " + std::to_string(7 * order[0] + 1)));
+    }
+}
+
+TEST_CASE("a file is read alike, whatever its pieces are", "[io][lammps_reader][C3]") {
+    constexpr std::int64_t n = 1500;
+    const auto name = [](std::int64_t k) { return std::to_string(1 + 37 * k % n); };  // in another order
+    auto text = heading(n, n - 1) + "\nAtoms # full\n\n";
+    for (std::int64_t k = 0; k < n; ++k) text += name(k) + " 2 1 0.25 " + std::to_string(k) + ".125 -1e-3 0 1 0 -1\n";
+    text += "\nVelocities\n\n";
+    for (std::int64_t k = n; k-- > 0;) text += name(k) + " " + std::to_string(k) + " 0.1 -7\n";
+    text += "\nBonds\n\n";
+    for (std::int64_t k = 1; k < n; ++k)
+        text += std::to_string(k) + " 1 " + std::to_string(k) + " " + std::to_string(k + 1) + "\n";
+    using bonded = tsubu::particle_store<
+        tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>, tsubu::charge, tsubu::image<3>, tsubu::bonds>>;
+    bonded whole;
+    const auto top = read_text(text, whole);
+    const auto expected = text_of(whole, top);
+    REQUIRE(whole.size() == static_cast<std::size_t>(n));
+    CHECK(tsubu::topology<tsubu::bonds, tsubu::newton_on>::count(whole) == n - 1);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const auto known = std::int64_t(1 + 37 * std::int64_t(i) % n);
+        CHECK(whole[tsubu::velocity<3>][i][0] == static_cast<double>(i));
+        REQUIRE(whole[tsubu::bonds][i].size() == (known == n ? 0U : 1U));
+        if (known != n) CHECK(whole[tsubu::bonds][i][0] == tsubu::term<2>{1, {known, known + 1}});
+    }
+    for (const std::size_t chunk : {1U, 7U, 64U, 4096U}) {
+        CAPTURE(chunk);
+        bonded g;
+        CHECK(read_text(text, g, {.chunk = chunk}) == top);
+        CHECK(text_of(g, top) == expected);
+        bonded none;  // and faults are told alike
+        const auto wrong = with(text, "\n1200 1 1200 1201\n", "\n1200 1 1200 9999\n");
+        CHECK(says(thrown<input_error>([&] { read_text(wrong, none, {.chunk = chunk}); }),
+                   "some.lmp, line " +
+                       std::to_string(1 + std::count(wrong.begin(),
+                                                     wrong.begin() + std::ptrdiff_t(wrong.find("1200 1 1200")), '\n')) +
+                       " \"1200 1 1200 9999\": no particle has the id 9999"));
+    }
 }
 
 TEST_CASE("terms are checked", "[io][lammps_reader]") {
@@ -256,11 +385,19 @@ TEST_CASE("unknown sections are refused, or skipped on request", "[io][lammps_re
     CHECK(says(refusal(with(full_text, "Bonds\n", "Pair Coeffs # lj/cut\n\n1 0.5 1\n\nBonds\n")),
                "line 37 \"Pair Coeffs # lj/cut\": this is no section that tsubu reads"));
     full_store<> g;
-    tsubu::lammps_reader<tsubu::memory_source> file(tsubu::memory_source(text), {.unknown = tsubu::unknown_lines::skip});
+    tsubu::lammps_reader<tsubu::memory_source> file(tsubu::memory_source(text),
+                                                    {.unknown = tsubu::unknown_lines::skip});
     file.read(g);
     CHECK(file.skipped() == std::vector<std::string>{"Pair Coeffs"});
     CHECK(file.style() == tsubu::atom_style::full);
     CHECK(g[tsubu::bonds][0].size() == 2);
+}
+
+TEST_CASE("what is read of a title can be written", "[io][lammps_reader]") {
+    full_store<> g;
+    const auto top = read_text(with(full_text, "four of a kind", " four\rof a\tkind \r"), g);
+    CHECK(top.title == "four of a\tkind");
+    CHECK(text_of(g, top).starts_with("four of a\tkind\n"));
 }
 
 TEST_CASE("sections come once, and Atoms first", "[io][lammps_reader]") {
@@ -276,7 +413,7 @@ TEST_CASE("a reader reads once, into an empty store", "[io][lammps_reader]") {
     file.read(g);
     CHECK(says(thrown<input_error>([&] { file.read(g); }), "the store has 4 particles; read into an empty one"));
     atomic_store other;
-    CHECK(says(thrown<input_error>([&] { file.read(other); }), "(memory) was read before"));
+    CHECK(says(thrown<input_error>([&] { file.read(other); }), "memory was read before"));
 }
 
 TEST_CASE("numbers that a narrow field does not hold are refused", "[io][lammps_reader]") {
@@ -289,7 +426,8 @@ TEST_CASE("numbers that a narrow field does not hold are refused", "[io][lammps_
     CHECK(g[narrow_charge][0] == -0.5F);
     CHECK(says(refusal<narrow>(with(full_text, "20 1 2", "3000000000 1 2")), "the id does not fit the field"));
     CHECK(says(refusal<narrow>(with(full_text, "20 1 2 -0.5", "20 1 2 -1e200")), "the charge does not fit the field"));
-    CHECK(says(refusal<narrow>(with(full_text, "20 1 2 -0.5 1 ", "20 1 2 -0.5 1e200 ")), "is beyond what 32 bits hold"));
+    CHECK(
+        says(refusal<narrow>(with(full_text, "20 1 2 -0.5 1 ", "20 1 2 -0.5 1e200 ")), "is beyond what 32 bits hold"));
 }
 
 TEST_CASE("each rank keeps its part, and all ranks together everything", "[io][lammps_reader]") {
@@ -337,6 +475,8 @@ TEST_CASE("a rank that keeps a part misses velocities of its own, and repeated o
     CHECK(refused(full_text) == "nothing was thrown");
     CHECK(says(refused(with(full_text, "\n10 1 0 0\n", "\n77 1 0 0\n")), "which end here, have none of id 10"));
     CHECK(says(refused(with(full_text, "\n10 1 0 0\n", "\n20 1 0 0\n")), "a second velocity of id 20"));
-    CHECK(says(refused(with(full_text, "\n10 1 1 0.25", "\n20 1 1 0.25")), "line 26: a second particle with the id 20"));
-    CHECK(says(refused(with(full_text, "\n40 4 0 0\n", "\n40 4 0 x\n")), "is no finite number"));  // checked, kept or not
+    CHECK(says(refused(with(full_text, "\n10 1 1 0.25", "\n20 1 1 0.25")),
+               "line 26 \"20 1 1 0.25 0.1 0 0 0 -1 0\": a second particle"));
+    CHECK(
+        says(refused(with(full_text, "\n40 4 0 0\n", "\n40 4 0 x\n")), "is no finite number"));  // checked, kept or not
 }

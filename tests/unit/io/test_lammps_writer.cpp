@@ -13,6 +13,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -97,7 +98,8 @@ TEST_CASE("write, read and write again gives the same bytes", "[io][lammps_write
 
 TEST_CASE("numbers come back to the bit", "[io][lammps_writer]") {
     constexpr auto most = (std::numeric_limits<double>::max)();
-    const std::vector<double> values{0.1 + 0.2, 5e-324, -0.0, most, -most, 1.0 / 3, 2.2250738585072011e-308, 123456789012345680.0};
+    const std::vector<double> values{0.1 + 0.2,           5e-324, -0.0, most, -most, 1.0 / 3, 2.2250738585072011e-308,
+                                     123456789012345680.0};
     using moving = tsubu::particle_store<
         tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3, float>, tsubu::charge, tsubu::image<3>>>;
     moving g;
@@ -109,7 +111,9 @@ TEST_CASE("numbers come back to the bit", "[io][lammps_writer]") {
     moving h;
     read_text(text_of(g, unit_box), h);
     REQUIRE(h.size() == values.size());
-    const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+    const auto same = [](double a, double b) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    };
     for (std::size_t i = 0; i < values.size(); ++i) {
         CAPTURE(values[i]);
         CHECK(h[tsubu::id][i] == g[tsubu::id][i]);
@@ -128,7 +132,8 @@ TEST_CASE("canonical bytes depend neither on the order of particles nor on Newto
     CHECK(text_of(chain<tsubu::newton_on>(60, 2), unit_box, canonical) == expected);
     CHECK(text_of<tsubu::newton_off>(chain<tsubu::newton_off>(60, 3), unit_box, canonical) == expected);
     CHECK(text_of(chain<tsubu::newton_on, tsubu::aos>(60, 4), unit_box, canonical) == expected);
-    CHECK(text_of<tsubu::newton_off>(chain<tsubu::newton_off, tsubu::aosoa<8>>(60, 5), unit_box, canonical) == expected);
+    CHECK(text_of<tsubu::newton_off>(chain<tsubu::newton_off, tsubu::aosoa<8>>(60, 5), unit_box, canonical) ==
+          expected);
     CHECK(text_of(chain<tsubu::newton_on>(60, 2), unit_box) != expected);
 }
 
@@ -144,8 +149,9 @@ TEST_CASE("ranks write their parts one after the other", "[io][lammps_writer][C1
         std::string text;
         tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; });
         out.header(top);
-        for (const auto section : {lammps_section::atoms, lammps_section::velocities, lammps_section::bonds,
-                                   lammps_section::angles, lammps_section::dihedrals, lammps_section::impropers}) {
+        for (const auto section :
+             {lammps_section::atom_rows, lammps_section::velocity_rows, lammps_section::bond_rows,
+              lammps_section::angle_rows, lammps_section::dihedral_rows, lammps_section::improper_rows}) {
             out.head<full_store<>>(section);
             std::uint64_t k0 = 1;
             for (const auto& part : parts) {
@@ -166,13 +172,59 @@ TEST_CASE("ranks write their parts one after the other", "[io][lammps_writer][C1
     }
 }
 
+TEST_CASE("canonical bytes do not depend on the number of parts", "[io][lammps_writer][C11]") {
+    const tsubu::lammps_write_options canonical{.canonical = true};
+    full_store<> whole = chain<tsubu::newton_on>(60, 1);
+    auto top = unit_box;
+    tsubu::complete_header<tsubu::newton_on>(top, whole, tsubu::atom_style::full);
+    const auto file_of = [&]<class Newton>(Newton, const std::vector<full_store<>>& parts,
+                                           const tsubu::lammps_write_options& options) {
+        std::string text;
+        tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; }, options, Newton{});
+        out.header(top);
+        for (const auto section : tsubu::detail::all_sections) {
+            out.template head<full_store<>>(section);
+            std::uint64_t expected = 0;
+            for (const auto& part : parts) expected += decltype(out)::count(section, part);
+            CHECK(out.rows(section, std::span<const full_store<>>(parts)) == expected);
+        }
+        out.flush();
+        return text;
+    };
+    const auto split = [&](auto newton, std::size_t ranks) {
+        const auto text = text_of<decltype(newton)>(chain<decltype(newton)>(60, 9), unit_box);
+        std::vector<full_store<>> parts(ranks);
+        for (std::size_t rank = 0; rank < ranks; ++rank) {
+            std::size_t next = 0;
+            read_text<decltype(newton)>(text, parts[rank], {}, [&](const vec<3>&) { return next++ % ranks == rank; });
+        }
+        return parts;
+    };
+    const auto expected = text_of(whole, unit_box, canonical);
+    for (const std::size_t ranks : {1U, 2U, 3U, 7U}) {
+        CAPTURE(ranks);
+        CHECK(file_of(tsubu::newton_on{}, split(tsubu::newton_on{}, ranks), canonical) == expected);
+        CHECK(file_of(tsubu::newton_off{}, split(tsubu::newton_off{}, ranks), canonical) == expected);
+    }
+    auto with_empty = split(tsubu::newton_on{}, 2);
+    with_empty.insert(with_empty.begin() + 1, full_store<>{});
+    CHECK(file_of(tsubu::newton_on{}, with_empty, canonical) == expected);
+    // Without the option parts follow one another, and row numbers go on.
+    const auto plain = file_of(tsubu::newton_on{}, split(tsubu::newton_on{}, 3), {});
+    CHECK(plain != expected);
+    full_store<> again;
+    const auto read = read_text(plain, again);
+    CHECK(text_of(again, read, canonical) == expected);
+    CHECK(says(rows_in(plain, "Bonds"), "\n59 "));
+}
+
 TEST_CASE("row numbers have 64 bits", "[io][lammps_writer][C11]") {
     full_store<> g;
     read_text(full_text, g);
     std::string text;
     tsubu::lammps_writer out([&](std::string_view chunk) { text += chunk; });
     const std::uint64_t far = (std::uint64_t{1} << 40) - 1;
-    CHECK(out.rows(lammps_section::bonds, g, far) == 3);
+    CHECK(out.rows(lammps_section::bond_rows, g, far) == 3);
     out.flush();
     CHECK(text == "1099511627775 2 20 10\n1099511627776 1 20 30\n1099511627777 1 30 40\n");
 }
@@ -219,13 +271,15 @@ TEST_CASE("the style follows from the fields, or from the option", "[io][lammps_
     tsubu::particle_store<fields<id, position<3>, tsubu::charge>> charged;
     charged.push_back(id = 1, tsubu::charge = -1.0);
     CHECK(says(text_of(charged, unit_box), "Atoms # full\n\n1 0 1 -1 0 0 0\n"));
-    CHECK(says(text_of(charged, unit_box, {.style = tsubu::atom_style::molecular}), "Atoms # molecular\n\n1 0 1 0 0 0\n"));
+    CHECK(says(text_of(charged, unit_box, {.style = tsubu::atom_style::molecular}),
+               "Atoms # molecular\n\n1 0 1 0 0 0\n"));
     CHECK(says(thrown<input_error>([&] { text_of(charged, unit_box, {.style = tsubu::atom_style::sphere}); }),
                "atom style sphere tells a radius, which the store lacks"));
     tsubu::particle_store<fields<id, position<3>, tsubu::radius>> light;
     light.push_back(id = 1);
     CHECK(says(thrown<input_error>([&] { text_of(light, unit_box); }), "tells a mass or density"));
-    CHECK(says(thrown<input_error>([&] { text_of(light, unit_box, {.style = tsubu::atom_style::full}); }), "tells a charge"));
+    CHECK(says(thrown<input_error>([&] { text_of(light, unit_box, {.style = tsubu::atom_style::full}); }),
+               "tells a charge"));
 }
 
 TEST_CASE("spheres are written with diameter, density and angular velocity", "[io][lammps_writer]") {
@@ -265,14 +319,18 @@ TEST_CASE("what a file cannot tell is refused", "[io][lammps_writer]") {
     CHECK(says(refused(id = 2, species = 1, mass = 2.0), "particles of type 1 with masses 1 and 2"));
     CHECK(says(refused(id = 2, species = 1 << 30, mass = 2.0), "do not tell the masses of 1073741824 types"));
     CHECK(says(refused(id = 2, species = 2, mass = 0.0), "no particle tells the mass of type 2"));
-    CHECK(says(refused(id = 2, species = 1, mass = 1.0, tsubu::charge = infinity), "a value inf of the particle with id 2"));
+    CHECK(says(refused(id = 2, species = 1, mass = 1.0, tsubu::charge = infinity),
+               "a value inf of the particle with id 2"));
     CHECK(says(refused(id = 2, species = 1, mass = 1.0, tsubu::velocity<3> = {0, 0, -infinity}), "a value -inf"));
     full_store<> none;
     CHECK(says(thrown<input_error>([&] { text_of(none, {.title = "a\nb", .lo = {0, 0, 0}, .hi = {1, 1, 1}}); }),
                "a title of several lines"));
     CHECK(says(thrown<input_error>([&] { text_of(none, {.title = "", .lo = {0, 0, 0}, .hi = {1, 0, 1}}); }),
                "a box from (0, 0, 0) to (1, 0, 1)"));
-    CHECK(says(thrown<input_error>([&] { text_of(none, {.title = "", .lo = {0, 0, 0}, .hi = {1, infinity, 1}}); }), "a box"));
+    CHECK(says(thrown<input_error>([&] {
+                   text_of(none, {.title = "", .lo = {0, 0, 0}, .hi = {1, infinity, 1}});
+               }),
+               "a box"));
     auto top = unit_box;
     top.atoms.types = 2;
     top.masses = {1};
@@ -287,6 +345,23 @@ TEST_CASE("an empty store is a file too", "[io][lammps_writer]") {
     CHECK(text == "unit\n\n0 atoms\n0 atom types\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n");
     full_store<> again;
     CHECK(read_text(text, again) == unit_box);
+}
+
+TEST_CASE("a buffer gives its text before it is full", "[io][text_sink]") {
+    std::vector<std::string> given;
+    tsubu::detail::text_buffer out([&](std::string_view part) { given.emplace_back(part); }, 1024);
+    out.put(std::string(1022, 'a'));
+    out.put("bcd");
+    CHECK(given == std::vector<std::string>{std::string(1022, 'a')});
+    out.put(std::string(1021, 'e'));
+    CHECK(given.size() == 1);
+    out.put(std::string(2000, 'f'));  // longer than the buffer: as it is
+    REQUIRE(given.size() == 3);
+    CHECK(given[1] == "bcd" + std::string(1021, 'e'));
+    CHECK(given[2] == std::string(2000, 'f'));
+    out.put('g');
+    out.flush();
+    CHECK(given.back() == "g");
 }
 
 TEST_CASE("chunks of any size give the same text", "[io][lammps_writer]") {

@@ -5,8 +5,6 @@
 
 #include <type_traits>
 
-#include <type_traits>
-
 TEST_CASE("terms join two, three or four particles, and compare by type and ids", "[store]") {
     STATIC_REQUIRE(tsubu::term<2>{1, {7, 9}} == tsubu::term<2>{1, {7, 9}});
     STATIC_REQUIRE(tsubu::term<2>{1, {7, 9}} != tsubu::term<2>{1, {9, 7}});

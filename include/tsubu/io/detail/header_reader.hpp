@@ -8,6 +8,7 @@
 #include <tsubu/io/lammps_header.hpp>
 #include <tsubu/io/lammps_options.hpp>
 
+#include <algorithm>    // std::replace
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
 #include <string>       // std::string
@@ -38,6 +39,7 @@ template <class Lines>
 [[nodiscard]] bool read_header(Lines& lines, lammps_header& header, unknown_lines unknown) {
     if (!lines.next()) lines.fail("the file is empty", "give a LAMMPS data file");
     header.title = std::string(trimmed(lines.line()));
+    std::replace(header.title.begin(), header.title.end(), '\r', ' ');  // else some would see two lines in it
     std::vector<std::string> met;
     const auto has_met = [&](std::string_view keyword) {
         for (const auto& one : met)
@@ -60,7 +62,7 @@ template <class Lines>
         const auto keyword = with_single_blanks(keyword_at);
         const auto expect_keyword = [&] {
             if (with_single_blanks(numbers.rest()) != keyword)
-                numbers.fail(quoted(numbers.rest()) + " where " + quoted(keyword) + " was expected",
+                numbers.fail(in_quotes(numbers.rest()) + " where " + in_quotes(keyword) + " was expected",
                              "give as many numbers as the line needs");
         };
         if (!keyword.empty()) {
@@ -99,7 +101,7 @@ template <class Lines>
         numbers.fail("this is no line of a header", "skip unknown lines by option, or remove it");
     }
     for (const auto face : face_names)
-        if (!has_met(face)) lines.fail("the header before it has no line " + quoted(face), "give the box");
+        if (!has_met(face)) lines.fail("the header before it has no line " + in_quotes(face), "give the box");
     return is_at_section;
 }
 

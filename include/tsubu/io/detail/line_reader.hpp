@@ -4,9 +4,9 @@
 #pragma once
 
 #include <tsubu/core/error.hpp>
-#include <tsubu/io/text_source.hpp>
+#include <tsubu/io/byte_source.hpp>
 
-#include <algorithm>    // std::max
+#include <algorithm>    // std::max, std::min
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
 #include <cstring>      // std::memchr, std::memmove
@@ -27,24 +27,25 @@ namespace tsubu::detail {
 }
 
 /// Text of a file as messages show it: at most 80 characters, all of them printable.
-[[nodiscard]] inline std::string quoted(std::string_view text) {
+[[nodiscard]] inline std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 80;
     std::string shown = "\"";
     for (const char c : text.substr(0, longest)) shown += c == '\t' || (c >= ' ' && c <= '~') ? c : '?';
     return shown += text.size() > longest ? "...\"" : "\"";
 }
 
-/// The buffer holds one chunk. A line that its end cuts moves to its front, and what follows is read behind it:
+/// The buffer holds one chunk. A line that its end cuts moves to its front, and what follows is read behind it; a line
+/// longer than the buffer makes it grow:
 ///
 ///     | (used) ... line \n line \n lin|      ->      |lin|e \n line \n ...
-template <text_source Source>
+template <byte_source Source>
 class line_reader {
 public:
-    /// @param chunk  characters held at a time; a line may not be longer
+    /// @param chunk  characters held at a time; more only where a line is longer
     line_reader(Source source, std::size_t chunk)
-        : source_(std::move(source)), buffer_((std::max)(chunk, std::size_t{1})) {
-        if constexpr (requires { source_.size(); }) size_ = source_.size();
-    }
+        : source_(std::move(source)),
+          buffer_((std::max)(chunk, std::size_t{1})),
+          most_((std::max)(chunk, longest_line)) {}
 
     /// Goes to the next line, whatever is in it. @return false at the end.
     [[nodiscard]] bool next() {
@@ -61,7 +62,7 @@ public:
                 }
             }
             scanned_ = held;
-            if (is_at_end_) {
+            if (read_ == source_.size()) {
                 if (held == 0) return false;
                 take({start, start + held});
                 begin_ = end_;
@@ -83,20 +84,35 @@ public:
     [[nodiscard]] std::string_view comment() const noexcept { return trimmed(comment_); }
     /// All of the line, without its end.
     [[nodiscard]] std::string_view line() const noexcept { return line_; }
+    /// Characters after the content may be looked at up to here.
+    [[nodiscard]] const char* readable_end() const noexcept { return buffer_.data() + end_; }
     /// Counted from 1.
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
     [[nodiscard]] std::string_view name() const noexcept { return source_.name(); }
-    /// Characters in all, as far as the source tells; else 0.
-    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+    /// Characters in all.
+    [[nodiscard]] std::uint64_t size() const { return source_.size(); }
 
     /// Tells what is wrong with this line.
     [[noreturn, gnu::cold, gnu::noinline]] void fail(const std::string& reason, const char* remedy) const {
         raise<input_error>("lammps_reader",
-                           std::string(name()) + ", line " + std::to_string(number_) + " " + quoted(line_) + ": " + reason,
+                           std::string(name()) + ", line " + std::to_string(number_) + " " + in_quotes(line_) + ": " +
+                               reason,
                            remedy);
+    }
+    /// Tells what is wrong with an earlier line: goes through the text again, to show it. Nothing is read after that.
+    [[noreturn, gnu::cold, gnu::noinline]] void fail_at(std::uint64_t number, const std::string& reason,
+                                                        const char* remedy) {
+        read_ = number_ = 0;
+        begin_ = end_ = scanned_ = 0;
+        while (number_ != number && next()) {
+        }
+        fail(reason, remedy);
     }
 
 private:
+    // Rows have some dozen characters; what goes on for so many is no data file, and takes no more memory.
+    static constexpr std::size_t longest_line = std::size_t{1} << 16;
+
     void take(std::string_view line) noexcept {
         ++number_;
         scanned_ = 0;
@@ -116,23 +132,26 @@ private:
             end_ -= begin_;
             begin_ = 0;
         }
-        if (end_ == buffer_.size()) {
+        if (end_ == buffer_.size() && end_ == most_) {
             ++number_;
             line_ = {buffer_.data(), end_};
-            fail("a line of more than " + std::to_string(buffer_.size()) + " characters", "raise the option chunk");
+            fail("a line of more than " + std::to_string(most_) + " characters", "raise the option chunk");
         }
-        const auto count = source_.read(std::span(buffer_).subspan(end_));
-        is_at_end_ = count == 0;
+        if (end_ == buffer_.size()) buffer_.resize((std::min)(2 * end_, most_));
+        const auto room = std::span(buffer_).subspan(end_);
+        const auto count = static_cast<std::size_t>((std::min)(std::uint64_t{room.size()}, source_.size() - read_));
+        source_.read(read_, std::as_writable_bytes(room.first(count)));
+        read_ += count;
         end_ += count;
     }
 
     Source source_;
-    std::size_t size_ = 0;
+    std::uint64_t read_ = 0;  // of the source
     std::vector<char> buffer_;
+    std::size_t most_;
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
     std::size_t scanned_ = 0;  // of what is held, no end of line is in so many
-    bool is_at_end_ = false;
     std::uint64_t number_ = 0;
     std::string_view line_;
     std::string_view content_;

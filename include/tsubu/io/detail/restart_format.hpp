@@ -6,6 +6,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/checksum.hpp>
+#include <tsubu/io/detail/restart_layout.hpp>
 #include <tsubu/io/detail/type_text.hpp>
 #include <tsubu/io/restart_state.hpp>
 #include <tsubu/store/field.hpp>
@@ -240,29 +241,32 @@ template <byte_source Source>
     return field.type + (field.unit.empty() ? " without a unit" : " in " + field.unit);
 }
 
-/// Refuses a file whose fields are not the wanted ones, by name.
+/// Refuses a file that lacks wanted fields, or has them of other types or units; all of them by name.
 inline void check_fields(std::string_view name, const std::vector<restart_field>& in_file,
                          const std::vector<restart_field>& wanted) {
-    constexpr const char* remedy = "read the fields that were written, in their order";
-    const auto refuse = [&](const std::string& reason) {
+    const auto refuse = [&](const std::string& reason, const char* remedy) {
         raise<input_error>("restart_reader", std::string(name) + ": " + reason, remedy);
     };
-    const auto found = [](const std::vector<restart_field>& in, const std::string& field) {
+    const auto found = [&](const std::string& field) {
         const restart_field* at = nullptr;
-        for (const auto& candidate : in)
-            if (candidate.name == field) at = &candidate;
+        for (const auto& candidate : in_file)
+            if (at == nullptr && candidate.name == field) at = &candidate;
         return at;
     };
-    for (const auto& field : wanted) {
-        const auto* other = found(in_file, field.name);
-        if (other == nullptr) refuse("the file has no field " + field.name + "; it has " + listed(in_file));
-        if (*other != field)
-            refuse("the field " + field.name + " is " + of_unit(*other) + "; asked for was " + of_unit(field));
-    }
+    std::string missing;
+    for (const auto& field : wanted)
+        if (found(field.name) == nullptr) missing += (missing.empty() ? "" : ", ") + field.name;
+    if (!missing.empty())
+        refuse("the file has no field " + missing + "; it has " + listed(in_file), "read the fields that were written");
+    for (const auto& field : wanted)
+        if (const auto& other = *found(field.name); other != field)
+            refuse("the field " + field.name + " is " + of_unit(other) + "; asked for was " + of_unit(field),
+                   "read the fields that were written");
+    if (in_file == wanted) return;
     for (const auto& field : in_file)
-        if (found(wanted, field.name) == nullptr)
-            refuse("the file has a field " + field.name + ", which was not asked for; it has " + listed(in_file));
-    if (in_file != wanted) refuse("the file has its fields in another order: " + listed(in_file));
+        if (!words_of_type(field.type))
+            refuse("the field " + field.name + " is " + field.type + ", of which the size is not known",
+                   "read all fields of the file, in its order");
 }
 
 }  // namespace tsubu::detail

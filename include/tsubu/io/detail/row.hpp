@@ -46,7 +46,7 @@ public:
     template <class Number>
     [[nodiscard]] Number next(const char* what) {
         Number value{};
-        const auto [stop, code] = read_number(at_, end_, value);
+        const auto [stop, code] = read_number(at_, end_, lines_->readable_end(), value);
         if (code != std::errc{} || (stop != end_ && !is_blank(*stop)) || !is_finite(value)) [[unlikely]]
             refuse<Number>(what, code);
         at_ = stop;
@@ -64,7 +64,7 @@ public:
     /// Nothing may follow.
     void expect_end() const {
         if (!is_at_end()) [[unlikely]]
-            fail(quoted(rest()) + " follows the last column", "is this another atom style?");
+            fail(in_quotes(rest()) + " follows the last column", "is this another atom style?");
     }
     [[noreturn]] void fail(const std::string& reason, const char* remedy) const { lines_->fail(reason, remedy); }
 
@@ -80,9 +80,10 @@ private:
         auto word = rest();
         for (std::size_t k = 0; k < word.size(); ++k)
             if (is_blank(word[k])) word = word.substr(0, k);
-        const auto found = std::string(what) + " " + quoted(word);
+        const auto found = std::string(what) + " " + in_quotes(word);
         if (code == std::errc::result_out_of_range)
-            fail(found + " is beyond what " + std::to_string(sizeof(Number) * 8) + " bits hold", "give a number within range");
+            fail(found + " is beyond what " + std::to_string(sizeof(Number) * 8) + " bits hold",
+                 "give a number within range");
         if constexpr (std::floating_point<Number>)
             fail(found + " is no finite number", "write it like 1, -2.5 or 3e-7");
         else

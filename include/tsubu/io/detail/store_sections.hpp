@@ -21,8 +21,8 @@ namespace tsubu::detail {
 inline constexpr std::array<std::string_view, 6> section_names{"Atoms",  "Velocities", "Bonds",
                                                                "Angles", "Dihedrals",  "Impropers"};
 inline constexpr std::array<lammps_section, 6> all_sections{
-    lammps_section::atoms,  lammps_section::velocities, lammps_section::bonds,
-    lammps_section::angles, lammps_section::dihedrals,  lammps_section::impropers};
+    lammps_section::atom_rows,  lammps_section::velocity_rows, lammps_section::bond_rows,
+    lammps_section::angle_rows, lammps_section::dihedral_rows,  lammps_section::improper_rows};
 
 /// Calls body.operator()<Field>() for the field of terms that the section lists, if the store has it.
 /// @return whether it has.
@@ -36,17 +36,17 @@ bool with_terms(lammps_section section, Body&& body) {
                 body.template operator()<Field>();
             }
     };
-    one.template operator()<bonds>(lammps_section::bonds);
-    one.template operator()<angles>(lammps_section::angles);
-    one.template operator()<dihedrals>(lammps_section::dihedrals);
-    one.template operator()<impropers>(lammps_section::impropers);
+    one.template operator()<bonds>(lammps_section::bond_rows);
+    one.template operator()<angles>(lammps_section::angle_rows);
+    one.template operator()<dihedrals>(lammps_section::dihedral_rows);
+    one.template operator()<impropers>(lammps_section::improper_rows);
     return found;
 }
 
 template <class Store>
 [[nodiscard]] bool has_section(lammps_section section) {
-    if (section == lammps_section::atoms) return true;
-    if (section == lammps_section::velocities)
+    if (section == lammps_section::atom_rows) return true;
+    if (section == lammps_section::velocity_rows)
         return has_named<Store, "velocity"> || has_named<Store, "angular_velocity">;
     return with_terms<Store>(section, []<auto>() {});
 }
@@ -65,7 +65,8 @@ template <class Store>
 void check_style(atom_style style) {
     const auto lack = [&](const char* field) {
         raise<input_error>("lammps_writer",
-                           "atom style " + std::string(name_of(style)) + " tells a " + field + ", which the store lacks",
+                           "atom style " + std::string(name_of(style)) + " tells a " + field +
+                               ", which the store lacks",
                            "choose another style, or give the store the field");
     };
     if (has_charge(style) && !has_named<Store, "charge">) lack("charge");

@@ -34,4 +34,5 @@ if(TARGET absl::flat_hash_map)
     target_link_libraries(tsubu_rivals INTERFACE absl::flat_hash_map)
     target_compile_definitions(tsubu_rivals INTERFACE TSUBU_RIVAL_ABSL=1)
 endif()
-message(STATUS "Rivals: std::unordered_map, Boost ${Boost_VERSION} (${Boost_FOUND}), Abseil ${absl_VERSION} (${absl_FOUND})")
+message(STATUS "Rivals: std::unordered_map, Boost ${Boost_VERSION} (${Boost_FOUND}), "
+    "Abseil ${absl_VERSION} (${absl_FOUND})")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DCONSUMER=subdirectory|installed [-DCOMPONENT=mpi|hdf5] -D... -P run.cmake: installs if needed, builds a consumer with
-# strict warnings as errors, and runs it.
+# cmake -DCONSUMER=subdirectory|installed [-DCOMPONENT=mpi|hdf5] -D... -P run.cmake: installs if needed, builds a consumer
+# with strict warnings as errors, and runs it.
 cmake_minimum_required(VERSION 3.25)
 set(work "${BUILD}/tests/package/${CONSUMER}${COMPONENT}")
 set(prefix "${work}/prefix")

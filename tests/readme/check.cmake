@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# cmake -DREADME=... -DROOT=... -P check.cmake: is every C++ block of the README a program under tests/readme, word for word?
+# cmake -DREADME=... -DROOT=... -P check.cmake: is every C++ block of the README a program under tests, word for word?
 # Above each ```cpp fence stands a line <!-- tests/readme/NAME.cpp -->. The SPDX line of the file is not in the README.
 cmake_minimum_required(VERSION 3.25)
 file(READ "${README}" text)

@@ -8,7 +8,8 @@ using carried = tsubu::fields<tsubu::id, tsubu::species, tsubu::position<3>, tsu
 int main() {
     const tsubu::domain<3> box{{0, 0, 0}, {1, 1, 2}, {.periodic = {true, true, false}}};
     tsubu::particle_store<carried> g;
-    for (int i = 1; i <= 2; ++i) g.push_back(tsubu::id = i, tsubu::species = 1, tsubu::position<3> = {0.5, 0.5, 0.9 * i});
+    for (int i = 1; i <= 2; ++i)
+        g.push_back(tsubu::id = i, tsubu::species = 1, tsubu::position<3> = {0.5, 0.5, 0.9 * i});
     tsubu::id_map<> where;
     where.rebuild(g[tsubu::id].span());
     tsubu::topology<tsubu::bonds, tsubu::newton_on>::insert(g, where, {.type = 1, .ids = {1, 2}});

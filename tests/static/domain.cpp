@@ -40,8 +40,10 @@ template class tsubu::wedge<float>;
     template class tsubu::cell_subdomain<__VA_ARGS__>;                                                \
     template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>;     \
     template class tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>; \
-    static_assert(tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>> && \
-                  tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>>)
+    static_assert(                                                                                    \
+        tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::brick_decomposition<D, Scalar>>>); \
+    static_assert(                                                                                    \
+        tsubu::decomposition<tsubu::cell_decomposition<__VA_ARGS__, tsubu::bisection_decomposition<D, Scalar>>>)
 
 TSUBU_TEST_CELLS(2, double, tsubu::triclinic_box<2, double>);
 TSUBU_TEST_CELLS(3, float, tsubu::triclinic_box<3, float>);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Every rank must find the same owners, also if it was compiled otherwise: SOURCE is built with COMPILER with and without
-# fused multiply-add, optimised and not, and each program must print what EXPECTED holds, whatever the compiler.
+# Every rank must find the same owners, also if it was compiled otherwise: SOURCE is built with COMPILER with and
+# without fused multiply-add, optimised and not, and each program must print what EXPECTED holds, whatever the compiler.
 cmake_minimum_required(VERSION 3.25)
 set(variants "-O0 -ffp-contract=off" "-O2")
 execute_process(COMMAND "${COMPILER}" -mfma -E -x c++ /dev/null RESULT_VARIABLE fma_result OUTPUT_QUIET ERROR_QUIET)

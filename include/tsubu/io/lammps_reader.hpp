@@ -4,7 +4,6 @@
 #pragma once
 
 #include <tsubu/core/error.hpp>
-#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/id_map.hpp>
 #include <tsubu/io/atom_style.hpp>
@@ -341,18 +340,11 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
         std::size_t count = 0;
     } held;
     std::array<index_t, rows_at_once * order> places;
+    [[maybe_unused]] detail::kept_terms<order> kept;
     const auto settle = [&] {
         const auto terms = std::exchange(held.count, 0);  // first: who throws here is not asked again
         now.where.find(std::span<const std::int64_t>(held.names).first(terms * order),
                        std::span(places).first(terms * order));
-        if constexpr (Store::template has<field_type>) {
-            const auto lists = now.particles[Field];  // they lie anywhere: asked for together, waited for once
-            for (std::size_t t = 0; t < terms; ++t)
-                for (std::size_t k = 0; k < order; ++k)
-                    if (const auto i = places[t * order + k];
-                        i != absent && rules::keeps(held.terms[t], held.names[t * order + k]))
-                        detail::prefetch<true>(lists[static_cast<std::size_t>(i)].end());
-        }
         for (std::size_t t = 0; t < terms; ++t) {
             const auto& one = held.terms[t];
             const auto* const of_term = places.data() + t * order;
@@ -360,7 +352,8 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
                 if (of_term[k] == absent) [[unlikely]]
                     refuse_unknown(one.ids[k], held.lines[t]);
             if constexpr (Store::template has<field_type>)
-                rules::insert(now.particles, detail::places_of_term<order>(one, of_term), one, with_.allows_repeats);
+                for (std::size_t k = 0; k < order; ++k)
+                    if (of_term[k] != absent && rules::keeps_at(one, k)) kept.add(of_term[k], one);
         }
     };
     const auto each = [&](row_type& row) {
@@ -371,6 +364,7 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
         held.lines[held.count++] = lines_.number();
     };
     rows(name, count.rows, each, settle);
+    if constexpr (Store::template has<field_type>) kept.give(now.particles[Field]);
 }
 
 template <byte_source Source>

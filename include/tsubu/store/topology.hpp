@@ -66,6 +66,13 @@ struct topology {
             return one.ids[main_one] == particle;
     }
 
+    /// Whether the particle at place k of the term keeps it; of one that is in it twice, its first place does.
+    [[nodiscard]] static constexpr bool keeps_at(const term_type& one, std::size_t k) noexcept {
+        for (std::size_t j = 0; j < k; ++j)
+            if (one.ids[j] == one.ids[k]) return false;
+        return keeps(one, one.ids[k]);
+    }
+
     /// Adds the term to those of its particles that keep it and are owned here. @return how many.
     ///
     /// @param where           an id_map of the particles of this rank
@@ -78,9 +85,7 @@ struct topology {
         std::array<std::size_t, order> keepers{};
         std::size_t kept = 0;
         for (std::size_t k = 0; k < order; ++k) {
-            bool is_first = true;  // of a particle that is in it twice
-            for (std::size_t j = 0; j < k; ++j) is_first = is_first && added.ids[j] != added.ids[k];
-            if (!is_first || !keeps(added, added.ids[k])) continue;
+            if (!keeps_at(added, k)) continue;
             const auto i = where.find(static_cast<typename Map::id_type>(added.ids[k]));
             if (i == absent || static_cast<std::size_t>(i) >= store.owned_count()) continue;
             keepers[kept++] = static_cast<std::size_t>(i);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// read_term: a row of Bonds, Angles, Dihedrals or Impropers.
+/// A row of Bonds, Angles, Dihedrals or Impropers, and the terms of all of them.
 #pragma once
 
+#include <tsubu/core/prefetch.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/io/detail/row.hpp>
 #include <tsubu/store/term.hpp>
 
 #include <cstddef>  // std::size_t
-#include <cstdint>  // std::int32_t, std::int64_t
+#include <cstdint>  // std::int32_t, std::int64_t, std::uint32_t
 #include <string>   // std::to_string
+#include <vector>   // std::vector
 
 namespace tsubu::detail {
 
@@ -33,22 +35,33 @@ template <std::size_t Order, class Row>
     return one;
 }
 
-/// What an id_map says of the particles of one term, asked before.
+/// The terms of a section, each with a particle that keeps it. They are given to the lists at its end: each list then
+/// gets its memory once, in the order of the particles.
 template <std::size_t Order>
-class places_of_term {
+class kept_terms {
 public:
-    using id_type = std::int64_t;
-    /// @param places  [Order]
-    places_of_term(const term<Order>& one, const index_t* places) noexcept : one_(&one), places_(places) {}
-    [[nodiscard]] index_t find(id_type particle) const noexcept {
-        for (std::size_t k = 0; k < Order; ++k)
-            if (one_->ids[k] == particle) return places_[k];
-        return absent;
+    void add(index_t keeper, const term<Order>& one) {
+        keepers_.push_back(keeper);
+        terms_.push_back(one);
+    }
+    /// @param lists  a column of list_of<term<Order>>
+    template <class Lists>
+    void give(const Lists& lists) const {
+        std::vector<std::uint32_t> counts(lists.size(), 0);
+        for (const auto i : keepers_) ++counts[static_cast<std::size_t>(i)];
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            if (counts[i] != 0) lists[i].reserve(lists[i].size() + counts[i]);
+        constexpr std::size_t ahead = 16;  // lists lie anywhere: asked for some time before they are written
+        for (std::size_t t = 0; t < terms_.size(); ++t) {
+            if (t + ahead < terms_.size())
+                prefetch<true>(lists[static_cast<std::size_t>(keepers_[t + ahead])].end());
+            lists[static_cast<std::size_t>(keepers_[t])].push_back(terms_[t]);
+        }
     }
 
 private:
-    const term<Order>* one_;
-    const index_t* places_;
+    std::vector<index_t> keepers_;
+    std::vector<term<Order>> terms_;
 };
 
 }  // namespace tsubu::detail

@@ -72,6 +72,7 @@
 #include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/checksum.hpp>
 #include <tsubu/io/complete_header.hpp>
+#include <tsubu/io/every_particle.hpp>
 #include <tsubu/io/file_error.hpp>
 #include <tsubu/io/lammps_data_file.hpp>
 #include <tsubu/io/lammps_fields.hpp>

@@ -10,6 +10,10 @@
 #include <vector>
 
 inline constexpr tsubu::field<"temperature", double, "K"> temperature{};
+struct ellipsoid {
+    double a, b, c;
+};
+inline constexpr tsubu::field<"shape", tsubu::bonus_of<ellipsoid>> shape{};
 
 #if CASE == 1 || CASE == 2 || CASE == 3
 using set = tsubu::fields<tsubu::id>;
@@ -21,8 +25,12 @@ using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"labels", tsubu::
 using set = tsubu::fields<tsubu::id, temperature, 3>;
 #elif CASE == 9
 using set = tsubu::fields<tsubu::id, temperature, tsubu::id>;
-#elif CASE == 10
+#elif CASE == 11
+using set = tsubu::fields<tsubu::id, temperature, tsubu::field<"temperature", float>{}>;
+#elif CASE == 10 || CASE == 12 || CASE == 15
 using set = tsubu::fields<tsubu::id, temperature, tsubu::bonds>;
+#elif CASE == 13 || CASE == 14
+using set = tsubu::fields<tsubu::id, temperature, shape>;
 #else
 using set = tsubu::fields<tsubu::id, temperature>;
 #endif
@@ -42,6 +50,14 @@ int main() {
 #elif CASE == 10
     const auto& read = g;
     const decltype(g)::record held = read[0];
+#elif CASE == 15
+    g.push_back(tsubu::id = 1, tsubu::bonds = {{.type = 1, .ids = {1, 2}}});
+#elif CASE == 12
+    g.push_back(tsubu::id = 1, tsubu::bonds = std::vector<tsubu::term<2>>(2));
+#elif CASE == 13
+    g.push_back(tsubu::id = 1, shape = {1, 2, 3});
+#elif CASE == 14
+    g.push_back(tsubu::id = 1, shape = ellipsoid{1, 2, 3});
 #elif CASE == 8
     tsubu::term<5> one;
 #else

@@ -149,7 +149,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* input, std::size_t siz
         odd_bytes = 0;
     }
     const auto bytes = std::as_bytes(std::span(file)).first(file.size() * 8 - odd_bytes);
-    read(bytes, tsubu::keep_all{});
+    read(bytes, tsubu::every_particle{});
     read(bytes, [](const auto& particle) { return particle[tsubu::id] % 2 == 0; });
     read_some(bytes);
     return 0;

@@ -45,7 +45,7 @@ TEST_CASE("a file that exists is refused, or replaced if asked", "[io][h5md]") {
     const auto path = folder / "run.h5";
     write_bytes(path, "precious");
     const auto text = thrown<file_error>([&] { tsubu::h5md_writer<set>(path, box); });
-    CHECK(says(text, path + ": it exists; take another name, or set options.replace"));
+    CHECK(says(text, path + ": it exists; take another name, or set h5md_options.replace"));
     CHECK(bytes_of(path) == "precious");
     tsubu::h5md_writer<set>(path, box, {.replace = true}).append(1, 0, some(2), box);
     CHECK(tsubu::h5md_reader(path).frames() == 1);

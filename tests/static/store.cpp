@@ -101,6 +101,9 @@ static_assert(std::is_nothrow_move_constructible_v<tsubu::particle_store<rich>> 
               std::is_nothrow_move_assignable_v<tsubu::particle_store<rich>> &&
               std::is_nothrow_default_constructible_v<tsubu::particle_store<rich>>);
 
+static_assert(std::input_iterator<decltype(tsubu::particle_store<rich>{}[history].begin())> &&
+              std::input_iterator<decltype(tsubu::particle_store<rich, tsubu::aos>{}[shape].begin())>);
+
 // What std::sort holds of a particle owns its lists: it moves, and is not copied. Without lists it is copied too.
 static_assert(std::is_nothrow_move_constructible_v<tsubu::particle_store<rich>::record> &&
               std::is_nothrow_move_assignable_v<tsubu::particle_store<rich>::record> &&

@@ -29,12 +29,15 @@ namespace tsubu {
 class file_writer {
 public:
     /// @throws file_error if it does not exist or may not be written.
-    explicit file_writer(std::string path) : file_writer(std::move(path), 0) {}
+    explicit file_writer(const std::string& path) : file_writer(path, path, 0, "open") {}
     file_writer(const file_writer&) = delete;
     file_writer(file_writer&& other) noexcept
-        : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+        : path_(std::move(other.path_)),
+          name_(std::move(other.name_)),
+          descriptor_(std::exchange(other.descriptor_, -1)) {}
     file_writer& operator=(file_writer&& other) noexcept {
         std::swap(path_, other.path_);
+        std::swap(name_, other.name_);
         std::swap(descriptor_, other.descriptor_);
         return *this;
     }
@@ -51,7 +54,7 @@ public:
             const auto written =
                 ::pwrite(descriptor_, bytes.data(), (std::min)(bytes.size(), most), static_cast<off_t>(offset));
             if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) detail::raise_file_error("file_writer", "write", path_, written < 0 ? errno : ENOSPC);
+            if (written <= 0) detail::raise_file_error("file_writer", "write", name_, written < 0 ? errno : ENOSPC);
             bytes = bytes.subspan(static_cast<std::size_t>(written));
             offset += static_cast<std::uint64_t>(written);
         }
@@ -59,7 +62,7 @@ public:
     /// How long the file is, whoever wrote it [bytes].
     [[nodiscard]] std::uint64_t size() const {
         struct stat about {};
-        if (::fstat(descriptor_, &about) != 0) detail::raise_file_error("file_writer", "ask the size of", path_, errno);
+        if (::fstat(descriptor_, &about) != 0) detail::raise_file_error("file_writer", "ask the size of", name_, errno);
         return static_cast<std::uint64_t>(about.st_size);
     }
     /// Waits until the disk has what was written, and closes the file.
@@ -68,17 +71,20 @@ public:
         const bool synced = ::fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOTSUP;  // not all devices can
         const int code = errno;
         const bool closed = ::close(std::exchange(descriptor_, -1)) == 0;
-        if (!synced || !closed) detail::raise_file_error("file_writer", "write", path_, synced ? errno : code);
+        if (!synced || !closed) detail::raise_file_error("file_writer", "write", name_, synced ? errno : code);
     }
 
 private:
     friend class atomic_file;
-    file_writer(std::string path, int flags)
-        : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
-        if (descriptor_ < 0 && errno != EEXIST) detail::raise_file_error("file_writer", "open", path_, errno);
+    file_writer(std::string path, std::string name, int flags, const char* doing)
+        : path_(std::move(path)),
+          name_(std::move(name)),
+          descriptor_(::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666)) {
+        if (descriptor_ < 0 && errno != EEXIST) detail::raise_file_error("file_writer", doing, name_, errno);
     }
 
     std::string path_;
+    std::string name_;  // what messages call it: of a temporary file the name that it is to have
     int descriptor_;
 };
 
@@ -125,12 +131,20 @@ public:
     }
 
 private:
+    [[noreturn]] static void raise_unless_file(const std::string& path, bool is_folder) {
+        if (is_folder) detail::raise_file_error("atomic_file", "write", path, EISDIR);
+        detail::raise<input_error>("atomic_file", path + " is a pipe or a device, and would be replaced by a file",
+                                   "give the name of a file");
+    }
     [[nodiscard]] static file_writer fresh(const std::string& path) {
+        struct stat about {};
+        if (::lstat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISLNK(about.st_mode))
+            raise_unless_file(path, S_ISDIR(about.st_mode));
         static std::atomic<unsigned> last = 0;
         constexpr int tries = 1000;  // each is a file of a process of the same number, on another machine or long ago
         for (int k = 0; k < tries; ++k) {
             file_writer writer(path + "." + std::to_string(::getpid()) + "-" + std::to_string(++last) + ".partial",
-                               O_CREAT | O_EXCL);
+                               path, O_CREAT | O_EXCL, "make");
             if (writer.descriptor_ >= 0) return writer;
         }
         detail::raise_file_error("atomic_file", "make a temporary file beside", path, EEXIST);

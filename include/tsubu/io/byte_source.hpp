@@ -40,7 +40,8 @@ class file_source {
 public:
     /// @throws file_error if it cannot be opened; input_error if it is not a file but a folder or a pipe.
     explicit file_source(std::string path)
-        : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+        : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+        // O_NONBLOCK: a pipe that nobody writes would be waited for; to a file it is nothing.
         if (descriptor_ < 0) detail::raise_file_error("file_source", "open", path_, errno);
         struct stat about {};
         const bool known = ::fstat(descriptor_, &about) == 0;

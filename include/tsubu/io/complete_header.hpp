@@ -30,12 +30,17 @@ template <class Store>
                            std::to_string(store.owned_count()) + " particles do not tell the masses of " +
                                std::to_string(types) + " types",
                            "give the masses in the header");
-    std::vector<double> masses(static_cast<std::size_t>(types));
+    constexpr auto untold = std::numeric_limits<double>::infinity();
+    std::vector<double> masses(static_cast<std::size_t>(types), untold);
     for (std::size_t i = 0; i < store.owned_count(); ++i) {
         const auto type = type_at(store, i);
         const auto weight = static_cast<double>(value_at<"mass">(store, i, 0.0));
         auto& of_type = masses[static_cast<std::size_t>(type - 1)];
-        if (of_type != 0 && of_type != weight)
+        if (!(weight > 0 && weight < untold))
+            raise<input_error>("lammps_writer",
+                               "a particle of type " + std::to_string(type) + " with the mass " + shown(weight),
+                               "masses are finite, and above 0");
+        if (of_type != untold && of_type != weight)
             raise<input_error>("lammps_writer",
                                "particles of type " + std::to_string(type) + " with masses " + shown(of_type) +
                                    " and " + shown(weight),
@@ -43,7 +48,7 @@ template <class Store>
         of_type = weight;
     }
     for (std::size_t k = 0; k < masses.size(); ++k)
-        if (!(masses[k] > 0))
+        if (masses[k] == untold)
             raise<input_error>("lammps_writer", "no particle tells the mass of type " + std::to_string(k + 1),
                                "give the masses in the header");
     return masses;

@@ -7,6 +7,7 @@
 
 #include <cerrno>        // ENOENT, ENOSPC ...
 #include <string>        // std::string
+#include <string_view>   // std::string_view
 #include <system_error>  // std::generic_category: its text, which unlike strerror's is not shared by threads
 
 namespace tsubu {
@@ -24,9 +25,10 @@ private:
 
 namespace detail {
 
-[[nodiscard]] inline const char* file_remedy(int code) noexcept {
+/// @param makes  whether the call was to make the file
+[[nodiscard]] inline const char* file_remedy(int code, bool makes) noexcept {
     switch (code) {
-        case ENOENT: return "check the name, and make the folder first";
+        case ENOENT: return makes ? "check the name, and make the folder first" : "check the name and the folder";
         case ENOTDIR: return "a part of the path is a file where a folder should be; check the name";
         case EISDIR: return "there is a folder with this name; give the name of a file";
         case EACCES:
@@ -42,11 +44,11 @@ namespace detail {
     }
 }
 
-/// @param doing  "open", "write" ...
-[[noreturn, gnu::cold]] inline void raise_file_error(const char* where, const char* doing, const std::string& path,
-                                                     int code) {
-    throw file_error("tsubu::" + std::string(where) + ": cannot " + doing + " " + path + ": " +
-                         std::generic_category().message(code) + "; " + file_remedy(code),
+/// @param doing  "open", "write" ...; "make" where the file is not there yet
+[[noreturn, gnu::cold]] inline void raise_file_error(const char* where, std::string_view doing,
+                                                     const std::string& path, int code) {
+    throw file_error("tsubu::" + std::string(where) + ": cannot " + std::string(doing) + " " + path + ": " +
+                         std::generic_category().message(code) + "; " + file_remedy(code, doing == "make"),
                      code);
 }
 

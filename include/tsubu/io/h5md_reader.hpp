@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tsubu/core/vec.hpp>
+#include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/detail/hdf5_attribute.hpp>
 #include <tsubu/io/detail/hdf5_element.hpp>
 #include <tsubu/io/detail/hdf5_library.hpp>
@@ -152,11 +153,7 @@ private:
     };
 
     void open() {
-        errno = 0;  // HDF5 tells of a file that is not there in too many words
-        if (std::FILE* there = std::fopen(file_.path().c_str(), "rb"))
-            std::fclose(there);
-        else
-            detail::raise_file_error("h5md_reader", "open", file_.path(), errno);
+        static_cast<void>(file_source(file_.path()));  // HDF5 tells of what is no file in too many words, or waits
         if (H5Fis_hdf5(file_.path().c_str()) == 0) file_.refuse("", "this is no HDF5 file", "check the name");
         file_.take(H5Fopen(file_.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
     }

@@ -11,13 +11,14 @@
 #include <tsubu/store/field.hpp>
 
 #include <algorithm>    // std::min
-#include <array>        // std::array, std::tuple_size
+#include <array>        // std::array
 #include <concepts>     // std::integral
 #include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::int64_t
 #include <cstring>      // std::memcpy
 #include <string>       // std::string, std::to_string
 #include <string_view>  // std::string_view
+#include <tuple>        // std::tuple_size
 #include <type_traits>  // std::is_same_v, std::remove_cv_t
 #include <utility>      // std::move
 #include <vector>       // std::vector

@@ -22,7 +22,9 @@ struct lammps_read_options {
 };
 
 struct lammps_write_options {
-    std::optional<atom_style> style{};  ///< else the least that has all fields of the store
+    /// Else the least that has all fields of the store. A style that is named writes the columns that it has, whatever
+    /// else is in the store.
+    std::optional<atom_style> style{};
     /// Atoms and velocities by id, terms by their ids, and bonds from the lower id: bytes that do not depend on the
     /// order of particles in the store, nor on who keeps terms.
     bool canonical = false;

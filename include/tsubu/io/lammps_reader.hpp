@@ -16,6 +16,7 @@
 #include <tsubu/io/detail/mass_table.hpp>
 #include <tsubu/io/detail/row.hpp>
 #include <tsubu/io/detail/term_row.hpp>
+#include <tsubu/io/every_particle.hpp>
 #include <tsubu/io/lammps_header.hpp>
 #include <tsubu/io/lammps_options.hpp>
 #include <tsubu/store/particle_store.hpp>
@@ -36,14 +37,6 @@
 
 namespace tsubu {
 
-/// Keeps every particle: what a program of one rank reads.
-struct every_particle {
-    template <class Position>
-    [[nodiscard]] constexpr bool operator()(const Position&) const noexcept {
-        return true;
-    }
-};
-
 /// What is in this LAMMPS data file? The header at once, the particles on request; a chunk is held at a time.
 ///
 ///     tsubu::lammps_reader file(tsubu::file_source("grains.lmp"));
@@ -53,8 +46,9 @@ struct every_particle {
 ///
 /// Which columns and sections are stored follows from the fields of the store: id, position, species, and by their
 /// names mass, radius, density, charge, molecule, image, velocity, angular_velocity, and the lists bonds, angles,
-/// dihedrals, impropers. A field that the style of the file has not is an error, never 0. All of the file is checked,
-/// stored or not.
+/// dihedrals, impropers. A field of LAMMPS that the style lacks is an error; fields that LAMMPS does not know, and
+/// image flags that the file leaves out, are zero. All of the file is checked, stored or not. Numbers are taken as they
+/// stand: the units of the fields hold for files in `units si`.
 ///
 /// A rank that keeps a part cannot tell an id that nobody has from one that another rank keeps; but it tells ids of its
 /// own that are repeated or missing, and the number of rows, so that an unknown id is missed by no file: where all
@@ -100,7 +94,7 @@ private:
     template <class Store>
     struct reading {
         Store particles;
-        std::vector<std::int64_t> names{};  // ids, in the order of the file
+        std::vector<std::int64_t> ids{};  // in the order of the file
         id_map<> where{};
         std::vector<std::int32_t> types{};  // where masses are to follow from them
         bool keeps_all = true;  // no particle was left to others: every id of the file is known here
@@ -152,8 +146,8 @@ private:
                         "is the file whole?");
     }
     void choose_style(std::string_view hint);
-    [[noreturn]] void refuse_unknown(std::int64_t name, std::uint64_t line) {
-        lines_.fail_at(line, "no particle has the id " + std::to_string(name),
+    [[noreturn]] void refuse_unknown(std::int64_t particle_id, std::uint64_t line) {
+        lines_.fail_at(line, "no particle has the id " + std::to_string(particle_id),
                        "correct the id, or add the particle to Atoms");
     }
     static constexpr std::size_t rows_at_once = 512;  // whose ids are looked up together; they stay in the caches
@@ -224,45 +218,44 @@ void lammps_reader<Source>::read_atoms(reading<Store>& now, Keep& keep) {
                         ", which the store has",
                     "read a file that has it, or a store without");
     using real = detail::scalar_named<Store, "position">;
-    const auto columns = atom_columns(style_);
     std::size_t given = 0;
-    auto& names = now.names;
+    auto& ids = now.ids;
     detail::line_places places;
     if constexpr (std::is_same_v<std::remove_const_t<Keep>, every_particle>) {
         constexpr std::size_t shortest_row = 10;  // "1 1 0 0 0", and its end: what the header promises may be too much
         const auto expected = (std::min)(static_cast<std::uint64_t>(header_.atoms.rows),
                                          static_cast<std::uint64_t>(lines_.size() / shortest_row));
         now.particles.reserve(static_cast<std::size_t>(expected));
-        names.reserve(static_cast<std::size_t>(expected));
+        ids.reserve(static_cast<std::size_t>(expected));
     }
     rows("Atoms", header_.atoms.rows, [&](row_type& row) {
         if (given == 0) given = detail::count_words(row.rest());
-        const auto atom = detail::read_atom<real>(row, style_, given == columns + 3, header_.atoms.types);
+        const auto atom = detail::read_atom<real>(row, style_, given, header_.atoms.types);
         auto& particles = now.particles;
         if constexpr (detail::has_named<Store, "position">) {
             detail::value_named<Store, "position"> at{};
-            detail::set_components(at, atom.at);
+            detail::set_components(at, atom.position);
             if (!keep(at)) {
                 now.keeps_all = false;
                 return;
             }
-        } else if (!keep(atom.at)) {
+        } else if (!keep(atom.position)) {
             now.keeps_all = false;
             return;
         }
-        names.push_back(atom.name);
+        ids.push_back(atom.particle_id);
         places.push_back(lines_.number());
         detail::append_atom(particles, atom, row);
         if constexpr (detail::has_named<Store, "mass">)
             if (!is_sphere(style_)) now.types.push_back(atom.type);
     });
     now.has_atoms = true;
-    now.where.rebuild(names);  // at once: several times faster than id by id, and so are look-ups later
-    if (now.where.size() == names.size()) return;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (const auto first = static_cast<std::size_t>(now.where.find(names[i])); first != i)
+    now.where.rebuild(ids);  // at once: several times faster than id by id, and so are look-ups later
+    if (now.where.size() == ids.size()) return;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (const auto first = static_cast<std::size_t>(now.where.find(ids[i])); first != i)
             lines_.fail_at(places[i],
-                           "a second particle with the id " + std::to_string(names[i]) + ", which line " +
+                           "a second particle with the id " + std::to_string(ids[i]) + ", which line " +
                                std::to_string(places[first]) + " has",
                            "give each particle an id of its own");
 }
@@ -272,10 +265,10 @@ template <class Store>
 void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     using real = detail::scalar_named<Store, "velocity">;
     using angular = detail::scalar_named<Store, "angular_velocity">;
-    std::vector<bool> seen(now.names.size());
+    std::vector<bool> seen(now.ids.size());
     std::size_t expected = 0;  // most files list velocities in the order of atoms: then nothing is to be looked up
     struct {
-        std::array<std::int64_t, rows_at_once> names;
+        std::array<std::int64_t, rows_at_once> ids;
         std::array<std::uint64_t, rows_at_once> lines;
         std::array<vec<3, real>, rows_at_once> v;
         std::array<vec<3, angular>, rows_at_once> w;
@@ -284,32 +277,33 @@ void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     std::array<index_t, rows_at_once> places;
     const auto settle = [&] {
         const auto count = std::exchange(held.count, 0);  // first: who throws here is not asked again
-        const auto names = std::span<const std::int64_t>(held.names).first(count);
-        if (count <= now.names.size() - expected &&
-            std::equal(names.begin(), names.end(), now.names.begin() + static_cast<std::ptrdiff_t>(expected)))
+        const auto ids = std::span<const std::int64_t>(held.ids).first(count);
+        if (count <= now.ids.size() - expected &&
+            std::equal(ids.begin(), ids.end(), now.ids.begin() + static_cast<std::ptrdiff_t>(expected)))
             std::iota(places.begin(), places.begin() + count, static_cast<index_t>(expected));
         else
-            now.where.find(names, std::span(places).first(count));
+            now.where.find(ids, std::span(places).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             if (places[k] == absent) {
-                if (now.keeps_all) refuse_unknown(names[k], held.lines[k]);
+                if (now.keeps_all) refuse_unknown(ids[k], held.lines[k]);
                 continue;
             }
             const auto i = static_cast<std::size_t>(places[k]);
             if (seen[i]) [[unlikely]]
-                lines_.fail_at(held.lines[k], "a second velocity of id " + std::to_string(names[k]),
+                lines_.fail_at(held.lines[k], "a second velocity of id " + std::to_string(ids[k]),
                                "leave one of them");
             seen[i] = true;
             expected = i + 1;
             if constexpr (detail::has_named<Store, "velocity">)
                 detail::set_components(now.particles[detail::field_named<Store, "velocity">{}][i], held.v[k]);
             if constexpr (detail::has_named<Store, "angular_velocity">)
-                detail::set_components(now.particles[detail::field_named<Store, "angular_velocity">{}][i], held.w[k]);
+                detail::set_components<detail::components::of_rotation>(
+                    now.particles[detail::field_named<Store, "angular_velocity">{}][i], held.w[k]);
         }
     };
     const auto each = [&](row_type& row) {
         if (held.count == rows_at_once) settle();
-        held.names[held.count] = row.template next_from<std::int64_t>(1, "the id");
+        held.ids[held.count] = row.template next_from<std::int64_t>(1, "the id");
         held.lines[held.count] = lines_.number();
         for (auto& one : held.v[held.count]) one = row.template next<real>("a velocity");
         if (is_sphere(style_))
@@ -321,7 +315,7 @@ void lammps_reader<Source>::read_velocities(reading<Store>& now) {
     if (const auto missed = std::find(seen.begin(), seen.end(), false); missed != seen.end()) {
         const auto i = static_cast<std::size_t>(missed - seen.begin());
         lines_.fail("Velocities, which end here, have none of id " +
-                        std::to_string(now.names[i]),
+                        std::to_string(now.ids[i]),
                     "give each particle one");
     }
     now.has_velocities = true;
@@ -335,7 +329,7 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
     constexpr auto order = rules::order;
     struct {
         std::array<term<order>, rows_at_once> terms;
-        std::array<std::int64_t, rows_at_once * order> names;
+        std::array<std::int64_t, rows_at_once * order> ids;
         std::array<std::uint64_t, rows_at_once> lines;
         std::size_t count = 0;
     } held;
@@ -343,7 +337,7 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
     [[maybe_unused]] detail::kept_terms<order> kept;
     const auto settle = [&] {
         const auto terms = std::exchange(held.count, 0);  // first: who throws here is not asked again
-        now.where.find(std::span<const std::int64_t>(held.names).first(terms * order),
+        now.where.find(std::span<const std::int64_t>(held.ids).first(terms * order),
                        std::span(places).first(terms * order));
         for (std::size_t t = 0; t < terms; ++t) {
             const auto& one = held.terms[t];
@@ -360,7 +354,7 @@ void lammps_reader<Source>::read_terms(reading<Store>& now, const char* name, la
         if (held.count == rows_at_once) settle();
         const auto one = detail::read_term<order>(row, count.types, with_.allows_repeats);
         held.terms[held.count] = one;
-        std::copy(one.ids.begin(), one.ids.end(), held.names.begin() + static_cast<std::ptrdiff_t>(order * held.count));
+        std::copy(one.ids.begin(), one.ids.end(), held.ids.begin() + static_cast<std::ptrdiff_t>(order * held.count));
         held.lines[held.count++] = lines_.number();
     };
     rows(name, count.rows, each, settle);
@@ -377,7 +371,8 @@ void lammps_reader<Source>::read_masses() {
 template <byte_source Source>
 void lammps_reader<Source>::skip_section() {
     if (with_.unknown == unknown_lines::refuse)
-        lines_.fail("this is no section that tsubu reads", "skip unknown sections by option, or remove it");
+        lines_.fail("this is no section that tsubu reads",
+                    "set lammps_read_options.unknown to unknown_lines::skip, or remove it");
     skipped_.push_back(detail::with_single_blanks(lines_.content()));
     while ((is_at_section_ = lines_.next_content()))
         if (detail::is_letter(lines_.content().front())) return;
@@ -387,10 +382,11 @@ template <byte_source Source>
 void lammps_reader<Source>::choose_style(std::string_view hint) {
     const auto hinted = atom_style_named(hint);
     if (with_.style && !hint.empty() && hinted != with_.style)
-        lines_.fail("this is not atom style " + std::string(name_of(*with_.style)), "ask for the style of the file");
+        lines_.fail("this is not atom style " + std::string(name_of(*with_.style)),
+                    "set lammps_read_options.style to the style of the file");
     if (!with_.style && !hinted)
         lines_.fail(hint.empty() ? "the atom style is not told" : "this is no atom style that tsubu reads",
-                    "name the style by option, or in the file: Atoms # atomic");
+                    "set lammps_read_options.style, or name it in the file: Atoms # atomic");
     style_ = with_.style ? *with_.style : *hinted;
 }
 
@@ -411,7 +407,7 @@ void lammps_reader<Source>::finish(reading<Store>& now) {
         detail::has_named<Store, "velocity"> || detail::has_named<Store, "angular_velocity">;
     if (wants_velocities && !now.has_velocities && header_.atoms.rows != 0 && !with_.velocities_may_lack)
         lines_.fail("there is no section Velocities, but the store has them",
-                    "leave them 0 by the option velocities_may_lack");
+                    "set lammps_read_options.velocities_may_lack to leave them 0");
     if constexpr (detail::has_named<Store, "mass">) {
         if (is_sphere(style_) || header_.atoms.rows == 0) return;
         if (header_.masses.empty())

@@ -42,7 +42,8 @@ namespace tsubu {
 ///     out.rows(tsubu::lammps_section::bond_rows, grains, k0);        // returns how many
 ///
 /// What is written follows from the fields of the store, as in lammps_reader; a molecule that the store does not have
-/// is 0. Ghosts are not written.
+/// is 0. Fields that LAMMPS does not know are not written, nor are ghosts. Where no atom style has all fields that
+/// LAMMPS knows, one is to be named in the options: its columns are written, and no others.
 ///
 /// @tparam Sink    a text_sink.
 /// @tparam Newton  newton_on or newton_off: who keeps the terms of the store, and so which are written (C5 to C10).
@@ -57,7 +58,8 @@ public:
     /// All of a file: header, masses, and the sections that the store has fields for.
     /// @param top  title, box and, if the store does not tell them, masses; counts and types are made no smaller than
     ///             the store needs them
-    /// @throws input_error if a number is not finite, an id not above 0, or if the store lacks what the style needs.
+    /// @throws input_error if a number is not finite, an id not above 0, if the store lacks what the style needs, or if
+    ///         no style has all that the store has and none is named.
     template <class Store>
     void write(const Store& store, lammps_header top) {
         complete_header<Newton>(top, store, style<Store>());
@@ -99,7 +101,8 @@ public:
     void flush() { out_.flush(); }
     [[nodiscard]] Sink& sink() noexcept { return out_.sink(); }
 
-    /// The style of the option, or the least that has all fields of the store.
+    /// The style of the options, or the least that has all fields of the store.
+    /// @throws input_error if none is named there, and no style has all fields.
     template <class Store>
     [[nodiscard]] atom_style style() const {
         return with_.style ? *with_.style : detail::least_style<Store>();
@@ -120,27 +123,29 @@ private:
         for (const auto& part : parts)
             for (std::size_t i = 0; i < part.owned_count(); ++i) order.emplace_back(&part, i);
         if (with_.canonical) {
-            const auto name = [](const auto& at) { return (*at.first)[detail::field_named<Store, "id">{}][at.second]; };
-            std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return name(a) < name(b); });
+            using id_field = detail::field_named<Store, "id">;
+            const auto id_of = [](const auto& at) { return (*at.first)[id_field{}][at.second]; };
+            std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return id_of(a) < id_of(b); });
         }
         return order;
     }
     template <class Number>
-    void put_finite(Number x, std::int64_t name) {
+    void put_finite(Number x, std::int64_t particle_id) {
         if (!std::isfinite(x)) [[unlikely]]
             detail::raise<input_error>("lammps_writer",
                                        "a value " + detail::shown(x) + " of the particle with id " +
-                                           std::to_string(name),
+                                           std::to_string(particle_id),
                                        "a file holds finite numbers");
         out_.put(' ');
         out_.put_number(x);
     }
     template <class Store>
-    [[nodiscard]] static std::int64_t name_at(const Store& store, std::size_t i) {
-        const auto name = store[detail::field_named<Store, "id">{}][i];
-        if (name < 1 || !std::in_range<std::int64_t>(name)) [[unlikely]]
-            detail::raise<input_error>("lammps_writer", "the id " + std::to_string(name), "ids of LAMMPS begin with 1");
-        return static_cast<std::int64_t>(name);
+    [[nodiscard]] static std::int64_t id_at(const Store& store, std::size_t i) {
+        const auto particle_id = store[detail::field_named<Store, "id">{}][i];
+        if (particle_id < 1 || !std::in_range<std::int64_t>(particle_id)) [[unlikely]]
+            detail::raise<input_error>("lammps_writer", "the id " + std::to_string(particle_id),
+                                       "ids of LAMMPS begin with 1");
+        return static_cast<std::int64_t>(particle_id);
     }
 
     lammps_write_options with_;
@@ -235,8 +240,8 @@ std::uint64_t lammps_writer<Sink, Newton>::write_atoms(std::span<const Store> pa
     const auto order = order_of(parts);
     for (const auto& [part, i] : order) {
         const auto& store = *part;
-        const auto name = name_at(store, i);
-        out_.put_number(name);
+        const auto particle_id = id_at(store, i);
+        out_.put_number(particle_id);
         if (has_molecule(written)) {
             out_.put(' ');
             out_.put_number(value_at<"molecule">(store, i, 0));
@@ -245,20 +250,21 @@ std::uint64_t lammps_writer<Sink, Newton>::write_atoms(std::span<const Store> pa
         out_.put_number(detail::type_at(store, i));
         if (is_sphere(written)) {
             const auto diameter = 2 * static_cast<double>(value_at<"radius">(store, i, 0.0));
-            put_finite(diameter, name);
+            put_finite(diameter, particle_id);
             if constexpr (detail::has_named<Store, "density">)
-                put_finite(static_cast<double>(value_at<"density">(store, i, 0.0)), name);
+                put_finite(static_cast<double>(value_at<"density">(store, i, 0.0)), particle_id);
             else
-                put_finite(static_cast<double>(value_at<"mass">(store, i, 0.0)) / detail::volume_of(diameter), name);
+                put_finite(static_cast<double>(value_at<"mass">(store, i, 0.0)) / detail::volume_of(diameter),
+                           particle_id);
         }
-        if (has_charge(written)) put_finite(static_cast<double>(value_at<"charge">(store, i, 0.0)), name);
+        if (has_charge(written)) put_finite(static_cast<double>(value_at<"charge">(store, i, 0.0)), particle_id);
         using real = detail::scalar_named<Store, "position">;
         for (const auto x : detail::three_components<real>(store[detail::field_named<Store, "position">{}][i]))
-            put_finite(x, name);
+            put_finite(x, particle_id);
         if constexpr (detail::has_named<Store, "image">)
             if (with_.images) {
-                const auto periods = detail::three_components<std::int64_t>(value_at<"image">(store, i, 0));
-                for (const auto n : periods) {
+                const auto flags = detail::three_components<std::int64_t>(value_at<"image">(store, i, 0));
+                for (const auto n : flags) {
                     out_.put(' ');
                     out_.put_number(n);
                 }
@@ -277,14 +283,14 @@ std::uint64_t lammps_writer<Sink, Newton>::write_velocities(std::span<const Stor
     const auto order = order_of(parts);
     for (const auto& [part, i] : order) {
         const auto& store = *part;
-        const auto name = name_at(store, i);
-        out_.put_number(name);
+        const auto particle_id = id_at(store, i);
+        out_.put_number(particle_id);
         for (const auto v : detail::three_components<real>(detail::value_at<"velocity">(store, i, vec<3, real>{})))
-            put_finite(v, name);
+            put_finite(v, particle_id);
         if (with_angular)
-            for (const auto w : detail::three_components<angular>(
+            for (const auto w : detail::three_components<angular, detail::components::of_rotation>(
                      detail::value_at<"angular_velocity">(store, i, vec<3, angular>{})))
-                put_finite(w, name);
+                put_finite(w, particle_id);
         out_.put('\n');
     }
     return order.size();
@@ -299,6 +305,9 @@ std::uint64_t lammps_writer<Sink, Newton>::write_terms(std::span<const Store> pa
     const auto put = [&](std::int64_t type, const particle_ids& ids) {
         out_.put_numbers(k, type);
         for (const auto one : ids) {
+            if (one < 1)
+                detail::raise<input_error>("lammps_writer", "a term of particle " + std::to_string(one),
+                                           "LAMMPS numbers particles from 1");
             out_.put(' ');
             out_.put_number(one);
         }

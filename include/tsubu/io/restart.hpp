@@ -11,18 +11,18 @@
 #include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/checksum.hpp>
 #include <tsubu/io/detail/restart_format.hpp>
+#include <tsubu/io/every_particle.hpp>
 #include <tsubu/io/restart_state.hpp>
-#include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/growth.hpp>
-#include <tsubu/store/list_of.hpp>
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
 #include <algorithm>    // std::min
 #include <array>        // std::array
-#include <cstddef>      // std::byte, std::size_t
+#include <cstddef>      // std::byte, std::size_t, std::to_integer
 #include <cstdint>      // std::uint64_t
+#include <cstring>      // std::memcpy
 #include <new>          // std::bad_alloc
 #include <numeric>      // std::iota
 #include <span>         // std::as_bytes, std::span
@@ -37,6 +37,11 @@ namespace detail {
 inline void check_block(const char* where, std::size_t particles_per_block) {
     if (particles_per_block == 0) raise<input_error>(where, "blocks of no particle", "give at least 1");
 }
+/// bool, or an array of it.
+template <class Value>
+inline constexpr bool is_made_of_bools = std::is_same_v<Value, bool>;
+template <class Element, std::size_t N>
+inline constexpr bool is_made_of_bools<std::array<Element, N>> = is_made_of_bools<Element>;
 /// Calls body(indices) for the owned particles of a store, some at a time.
 template <class Store, class Body>
 void each_block_of(const Store& store, std::size_t particles_per_block, Body&& body) {
@@ -85,7 +90,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const noexcept { return header_.bytes; }
     /// Where the part of a rank begins.
     [[nodiscard]] std::uint64_t offset(std::size_t rank) const noexcept {
-        auto at = 8 * header_.words;
+        auto at = detail::word_bytes * header_.words;
         for (std::size_t k = 0; k < rank; ++k) at += header_.parts[k].bytes;
         return at;
     }
@@ -108,14 +113,15 @@ public:
             if (head + body > words.size()) words = buffer<std::uint64_t>(head + body, {});
             const std::span<std::uint64_t> all(words.data(), head + body);
             pack(store, set, chosen, all.subspan(head));
-            all[0] = detail::restart_block_magic;
-            all[1] = rank;
-            all[2] = block++;
-            all[3] = chosen.size();
-            all[4] = body;
-            all[5] = crc64_of(all.subspan(head));
-            all[6] = header_.checksum;
-            all[7] = crc64_of(all.first(head - 1));
+            detail::restart_block label;
+            label.part = rank;
+            label.number = block++;
+            label.particles = chosen.size();
+            label.words = body;
+            label.body_checksum = crc64_of(all.subspan(head));
+            label.file_checksum = header_.checksum;
+            label.checksum = label.own_checksum();
+            std::memcpy(all.data(), &label, sizeof(label));
             if (at - begin + all.size_bytes() > header_.parts[rank].bytes) refuse(rank);  // never over another's part
             file.write_at(at, std::as_bytes(all));
             at += all.size_bytes();
@@ -157,7 +163,7 @@ template <auto... F, class Store>
     part.particles = store.owned_count();
     detail::each_block_of(store, particles_per_block, [&](std::span<const index_t> chosen) {
         ++part.blocks;
-        part.bytes += 8 * (detail::restart_block_header + packed_words(store, set, chosen));
+        part.bytes += detail::word_bytes * (detail::restart_block_header + packed_words(store, set, chosen));
     });
     return part;
 }
@@ -178,13 +184,6 @@ void write_restart(const std::string& path, const Store& store, fields<F...> set
     plan.commit(file);
 }
 
-/// For restart_reader::read: every particle is wanted.
-struct keep_all {
-    template <class Particle>
-    [[nodiscard]] constexpr bool operator()(const Particle&) const noexcept {
-        return true;
-    }
-};
 /// For restart_reader::read: every ranks-th block, from block `rank` on.
 struct restart_share {
     std::uint64_t rank = 0;
@@ -230,7 +229,7 @@ public:
     /// @param share  which blocks; others are not read
     /// @throws input_error if the file lacks a field or is damaged, or the store has ghosts; limit_error from 2^31
     ///         particles on; file_error if the disk fails.
-    template <auto... F, class Store, class Keep = keep_all>
+    template <auto... F, class Store, class Keep = every_particle>
     void read(Store& store, fields<F...> set, Keep&& keep = {}, restart_share share = {}) const {
         static_assert(sizeof...(F) > 0, "ask for a field of the file");
         const auto wanted = detail::restart_fields(set);
@@ -253,9 +252,6 @@ public:
     }
 
 private:
-    static constexpr auto head = detail::restart_block_header;
-    using block_header = std::array<std::uint64_t, head>;
-
     /// Of a block.
     struct place {
         std::uint64_t byte;
@@ -269,9 +265,9 @@ private:
         particle_store<fields<F...>> met;  // one block
         buffer<std::uint64_t> words;
         std::vector<std::uint64_t> chosen;
-        const auto least = layout == nullptr ? least_words(set) : layout->least();
+        const auto least = layout == nullptr ? std::uint64_t{detail::packer<fields<F...>>::least} : layout->least();
         std::uint64_t next = 0;
-        auto at = 8 * header_.words;
+        auto at = detail::word_bytes * header_.words;
         for (std::size_t p = 0; p < header_.parts.size(); ++p) {
             const auto& part = header_.parts[p];
             const auto end = at + part.bytes;
@@ -279,10 +275,10 @@ private:
             for (std::uint64_t b = 0; b < part.blocks; ++b) {
                 const place here{at, p, b};
                 const auto block = read_header(here, end, least);
-                particles += block[3];
-                at += 8 * head;
+                particles += block.particles;
+                at += sizeof(block);
                 if (next++ % share.ranks == share.rank) {
-                    const auto count = static_cast<std::size_t>(block[3]);
+                    const auto count = static_cast<std::size_t>(block.particles);
                     auto body = read_body(here, block, words);
                     if (layout != nullptr) {
                         chosen.clear();
@@ -293,40 +289,40 @@ private:
                     }
                     take(store, set, keep, met, body, count, here);
                 }
-                at += 8 * block[4];
+                at += detail::word_bytes * block.words;
             }
             if (at != end || particles != part.particles)
                 detail::refuse_restart(source_.name(), at,
                                        "part " + std::to_string(p) + " is not what the header says");
         }
     }
-    [[nodiscard]] block_header read_header(const place& here, std::uint64_t end, std::uint64_t least) const {
-        if (end - here.byte < 8 * head) refuse(here, "it does not fit its part");
-        block_header block{};
-        source_.read(here.byte, std::as_writable_bytes(std::span(block)));
-        if (block[0] != detail::restart_block_magic) refuse(here, "no block begins here");
-        if (crc64_of(std::span<const std::uint64_t>(block).first(head - 1)) != block[head - 1])
-            refuse(here, "the checksum of its header differs");
-        if (block[1] != here.part || block[2] != here.block || block[6] != header_.checksum)
+    [[nodiscard]] detail::restart_block read_header(const place& here, std::uint64_t end, std::uint64_t least) const {
+        detail::restart_block block;
+        if (end - here.byte < sizeof(block)) refuse(here, "it does not fit its part");
+        source_.read(here.byte, std::as_writable_bytes(std::span(&block, 1)));
+        if (block.magic != detail::restart_block_magic) refuse(here, "no block begins here");
+        if (block.own_checksum() != block.checksum) refuse(here, "the checksum of its header differs");
+        if (block.part != here.part || block.number != here.block || block.file_checksum != header_.checksum)
             refuse(here, "a block of another place or file lies here");
-        if (block[4] > (end - here.byte) / 8 - head || block[3] > header_.particles_per_block ||
-            block[3] > block[4] / least)
-            refuse(here, std::to_string(block[3]) + " particles in " + std::to_string(block[4]) + " words cannot be");
+        if (block.words > (end - here.byte - sizeof(block)) / detail::word_bytes ||
+            block.particles > header_.particles_per_block || block.particles > block.words / least)
+            refuse(here, std::to_string(block.particles) + " particles in " + std::to_string(block.words) +
+                             " words cannot be");
         return block;
     }
-    [[nodiscard]] std::span<const std::uint64_t> read_body(const place& here, const block_header& block,
+    [[nodiscard]] std::span<const std::uint64_t> read_body(const place& here, const detail::restart_block& block,
                                                            buffer<std::uint64_t>& words) const {
-        const auto count = static_cast<std::size_t>(block[4]);
+        const auto count = static_cast<std::size_t>(block.words);
         if (count > words.size()) words = buffer<std::uint64_t>(count, {});
         const std::span<std::uint64_t> body(words.data(), count);
-        source_.read(here.byte + 8 * head, std::as_writable_bytes(body));
-        if (crc64_of(body) != block[5]) refuse(here, "the checksum of its particles differs");
+        source_.read(here.byte + sizeof(block), std::as_writable_bytes(body));
+        if (crc64_of(body) != block.body_checksum) refuse(here, "the checksum of its particles differs");
         return body;
     }
     template <auto... F, class Store, class Keep>
     void take(Store& store, fields<F...> set, Keep& keep, particle_store<fields<F...>>& met,
               std::span<const std::uint64_t> words, std::size_t count, const place& here) const {
-        if constexpr (std::is_same_v<std::remove_cv_t<Keep>, keep_all>) {
+        if constexpr (std::is_same_v<std::remove_cv_t<Keep>, every_particle>) {
             add(store, set, words, count, here);
         } else {
             met.clear();
@@ -359,29 +355,14 @@ private:
     template <class Field, class Store>
     [[nodiscard]] static bool has_sound_bools(Store& store, std::size_t first) {
         bool sound = true;
-        if constexpr (std::is_same_v<typename Field::value_type, bool>) {
+        if constexpr (detail::is_made_of_bools<typename Field::value_type>) {
             const auto column = store[Field{}];
             for (std::size_t i = first; i < store.size(); ++i)
-                sound = sound && *reinterpret_cast<const unsigned char*>(&column[i]) <= 1;
+                for (const auto byte : std::as_bytes(std::span(&column[i], 1)))
+                    sound = sound && std::to_integer<unsigned>(byte) <= 1;
         }
         return sound;
     }
-    template <auto... F>
-    [[nodiscard]] static constexpr std::uint64_t least_words(fields<F...>) noexcept {
-        return (std::uint64_t{0} + ... + least_words_of<typename std::remove_cv_t<decltype(F)>::value_type>::value);
-    }
-    template <class Value>
-    struct least_words_of {
-        static constexpr std::uint64_t value = (sizeof(Value) + 7) / 8;
-    };
-    template <class Element>
-    struct least_words_of<list_of<Element>> {
-        static constexpr std::uint64_t value = 1;  // its length
-    };
-    template <class Element>
-    struct least_words_of<bonus_of<Element>> {
-        static constexpr std::uint64_t value = 1;  // whether there is one
-    };
     template <class Store>
     static void drop(Store& store, std::size_t count) noexcept {
         while (store.size() > count) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>    // std::min
 #include <bit>          // std::endian
+#include <cmath>        // std::isfinite
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::uint64_t
 #include <span>         // std::as_bytes, std::span
@@ -166,7 +167,7 @@ struct vtk_time {
 inline void write_pvd(const std::string& path, std::span<const vtk_time> series) {
     auto xml = detail::vtk_writer::begin("Collection") + "  <Collection>\n";
     for (const auto& one : series) {
-        if (!(one.time - one.time == 0))
+        if (!std::isfinite(one.time))
             detail::raise<input_error>("write_pvd", path + ": " + one.file + " at the time " + detail::shown(one.time),
                                        "give finite times");
         xml += "    <DataSet timestep=\"" + detail::shown(one.time) + "\" part=\"0\" file=\"" +

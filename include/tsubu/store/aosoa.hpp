@@ -19,7 +19,8 @@ namespace tsubu {
 ///
 /// Concept:  particle_layout.
 /// Bytes:    the sum of the sizes of the fields per particle, in whole blocks.
-/// Choose it when loops use most fields and are vectorised. Do not when they use one field of all particles: soa.
+/// Choose it when kernels of one's own take vectors of N values of several fields at once (explicit SIMD). Do not
+///           otherwise: what a compiler makes of loops by index is slower than in soa.
 ///
 /// @tparam N  particles per block; a power of 2, else an index costs a division.
 template <std::size_t N = 16>

@@ -10,9 +10,11 @@
 #include <tsubu/store/growth.hpp>
 
 #include <algorithm>    // std::copy_n
+#include <concepts>     // std::integral
 #include <cstddef>      // std::size_t
 #include <span>         // std::span
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::is_trivially_copyable_v, std::type_identity_t
+#include <utility>      // std::move
 
 namespace tsubu {
 
@@ -24,11 +26,28 @@ namespace tsubu {
 ///     for (auto& e : g[shape].values()) ...
 ///
 /// Bytes: 4 per particle, and sizeof(Value) + 4 per value, in blocks of 8192 (C2).
+/// A type to name, without objects: `shape = ...` says how a value is given.
+///
 /// @tparam Value  trivially copyable.
 template <class Value>
 struct bonus_of {
     static_assert(std::is_trivially_copyable_v<Value>, "bonus_of holds a trivially copyable type");
     using element_type = Value;
+
+    template <class... Any>
+    constexpr bonus_of(const Any&...) {
+        refuse<Value, Any...>();
+    }
+    template <class Any = Value>
+    constexpr bonus_of(const std::type_identity_t<Any>&) {
+        refuse<Any>();
+    }
+
+private:
+    template <class Any, class...>
+    static constexpr void refuse() {
+        static_assert(sizeof(Any) == 0, "a value that only some have is given later: g[field][i].emplace(value)");
+    }
 };
 
 namespace detail {
@@ -157,11 +176,19 @@ public:
         : place_(place), count_(count), pool_(&of), until_(until) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
-    [[nodiscard]] bonus_reference<Value, Place, IsConst> operator[](std::size_t i) const noexcept {
+    template <std::integral Index>
+    [[nodiscard]] bonus_reference<Value, Place, IsConst> operator[](Index index) const noexcept {
+        const auto i = static_cast<std::size_t>(index);  // of a negative one: beyond all
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
         return {*pool_, place_, first_ + i, until_};
     }
+    /// By particle, those without a value too.
+    [[nodiscard]] auto begin() const noexcept {
+        until_.check();
+        return detail::column_walk<bonus_column>(*this, 0);
+    }
+    [[nodiscard]] auto end() const noexcept { return detail::column_walk<bonus_column>(*this, count_); }
     /// The values that there are, in no order; owners()[k] is the particle of values()[k].
     [[nodiscard]] auto values() const noexcept {
         until_.check();

@@ -6,12 +6,13 @@
 #include <tsubu/core/expects.hpp>
 
 #include <compare>      // std::strong_ordering
+#include <concepts>     // std::integral
 #include <cstddef>      // std::ptrdiff_t, std::size_t
 #include <cstdint>      // std::uint64_t
-#include <iterator>     // std::random_access_iterator_tag
-#include <span>         // std::span
+#include <iterator>     // std::input_iterator_tag, std::random_access_iterator_tag
+#include <span>         // std::ranges::enable_borrowed_range, std::span
 #include <type_traits>  // std::conditional_t, std::is_same_v
-#include <utility>      // std::exchange
+#include <utility>      // std::declval, std::exchange
 
 namespace tsubu {
 
@@ -39,13 +40,13 @@ struct contiguous_place {
     [[nodiscard, gnu::always_inline]] Value& at(std::size_t i) const noexcept { return start[i]; }
     [[nodiscard]] contiguous_place from(std::size_t i) const noexcept { return {start + i}; }
 };
-/// A value in each record of a given size: what aos has.
-template <class Value, std::size_t Stride>
+/// A value at a given place in each record of a given size: what aos has.
+template <class Value, std::size_t Stride, std::size_t Offset>
 struct strided_place {
     using byte = std::conditional_t<std::is_const_v<Value>, const std::byte, std::byte>;
     byte* start = nullptr;
     [[nodiscard, gnu::always_inline]] Value& at(std::size_t i) const noexcept {
-        return *reinterpret_cast<Value*>(start + i * Stride);
+        return *reinterpret_cast<Value*>(start + i * Stride + Offset);
     }
     [[nodiscard]] strided_place from(std::size_t i) const noexcept { return {start + i * Stride}; }
 };
@@ -118,7 +119,9 @@ public:
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
-    [[nodiscard, gnu::always_inline]] Value& operator[](std::size_t i) const noexcept {
+    template <std::integral Index>
+    [[nodiscard, gnu::always_inline]] Value& operator[](Index index) const noexcept {
+        const auto i = static_cast<std::size_t>(index);  // of a negative one: beyond all
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
         return place_.at(i);
@@ -155,6 +158,37 @@ private:
     [[no_unique_address]] lease until_;
 };
 
+namespace detail {
+
+/// Walks a column whose values are made when they are asked for.
+template <class Column>
+class column_walk {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = decltype(std::declval<const Column&>()[std::size_t{}]);
+    using difference_type = std::ptrdiff_t;
+    using reference = value_type;
+    using pointer = void;
+
+    column_walk(const Column& of, std::size_t at) noexcept : of_(of), at_(at) {}
+    reference operator*() const noexcept { return of_[at_]; }
+    column_walk& operator++() noexcept {
+        ++at_;
+        return *this;
+    }
+    column_walk operator++(int) noexcept {
+        auto before = *this;
+        ++at_;
+        return before;
+    }
+    friend bool operator==(const column_walk& a, const column_walk& b) noexcept { return a.at_ == b.at_; }
+
+private:
+    Column of_;
+    std::size_t at_;
+};
+
+}  // namespace detail
 }  // namespace tsubu
 
 /// A column is a view: what it leads to outlives it.

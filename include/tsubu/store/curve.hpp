@@ -25,8 +25,11 @@ concept space_curve = requires(const Curve& curve, const std::array<std::uint32_
     { curve.template key<3>(cell, 21U) } -> std::same_as<std::uint64_t>;
 };
 
-/// The bits of the coordinates, one of each in turn: cheap, with long jumps at powers of 2.
+/// The bits of the coordinates, one of each in turn, with long jumps at powers of 2.
 ///
+/// Concept: space_curve. Choose it to bring neighbours together in memory: the order takes a third of the time that
+/// hilbert_curve's takes, and looking at neighbours in soa is as fast after it. Do not when stretches of the order are
+/// to be connected pieces of space.
 /// Source: Morton 1966, "A computer oriented geodetic data base".
 struct morton_curve {
     template <std::size_t D>
@@ -41,6 +44,8 @@ static_assert(space_curve<morton_curve>);
 
 /// A curve without jumps: each cell is beside the one before it.
 ///
+/// Concept: space_curve. Choose it when stretches of the order are to be connected pieces of space. Do not when sorting
+/// itself takes the time: morton_curve.
 /// Source: Skilling 2004, "Programming the Hilbert curve", doi:10.1063/1.1751381.
 struct hilbert_curve {
     template <std::size_t D>
@@ -74,10 +79,11 @@ static_assert(space_curve<hilbert_curve>);
 ///
 /// @param where      a box; points outside count as at its nearest face.
 /// @param positions  something with size() and operator[], such as a column [N]
-/// Complexity: O(N log N), 16 N bytes of memory.
+/// Complexity: O(N log N), 20 N bytes of memory at the peak.
 template <space_curve Curve, class Box, class Positions>
 [[nodiscard]] std::vector<index_t> order_along(const Curve& curve, const Box& where, const Positions& positions) {
     constexpr std::size_t D = Box::dimension;
+    // A coordinate has 32 bits, and 2^(D bits), the number of keys, is to fit 64.
     constexpr unsigned bits = D == 1 ? 32 : D == 2 ? 31 : 21;
     using real = typename Box::real_type;
     constexpr auto cells = static_cast<real>(std::uint64_t{1} << bits);

@@ -26,12 +26,24 @@ enum class under_image {
     rotates,     ///< turns where images are turned, in a wedge: a velocity, a force
 };
 /// How what ghosts have collected is added to the owner's value.
-enum class ghosts_add { sum, least, greatest, nothing };
+enum class ghosts_add {
+    sum,       ///< added: a force, a torque
+    least,     ///< the owner keeps the least of all
+    greatest,  ///< the owner keeps the greatest of all
+    nothing,   ///< ghosts give nothing back: an id, a position
+};
 
+/// How a field travels between ranks, by the names of what differs from the default:
+///
+///     inline constexpr tsubu::field<"flux", tsubu::vec<3>, "W",
+///                                   tsubu::field_traits{.when = tsubu::travels::never,
+///                                                       .image = tsubu::under_image::rotates,
+///                                                       .reverse = tsubu::ghosts_add::sum}>
+///         flux{};
 struct field_traits {
-    travels when = travels::on_creation;
-    under_image image = under_image::invariant;
-    ghosts_add reverse = ghosts_add::sum;
+    travels when = travels::on_creation;         ///< to ghosts; default: once, when the ghost is made
+    under_image image = under_image::invariant;  ///< on the way to a periodic image; default: unchanged
+    ghosts_add reverse = ghosts_add::nothing;    ///< from ghosts to the owner; default: nothing comes back
 };
 
 template <class Field>
@@ -42,7 +54,8 @@ struct field_value;
 ///     inline constexpr tsubu::field<"temperature", double, "K"> temperature{};
 ///     inline constexpr tsubu::field<"heat", double, "J", tsubu::field_traits{.when = tsubu::travels::never}> heat{};
 ///
-/// @tparam Value  trivially copyable, or list_of<T> for as many values as each particle has.
+/// @tparam Value  trivially copyable, or list_of<T> for as many values as each particle has, or bonus_of<T> for a value
+///                that only some particles have.
 template <fixed_string Name, class Value, fixed_string Unit = "", field_traits Traits = field_traits{}>
 struct field {
     using value_type = Value;
@@ -81,6 +94,11 @@ struct fields {
     static constexpr std::size_t times =
         (std::size_t{0} + ... + (std::is_same_v<decltype(Fields), Field> ? std::size_t{1} : std::size_t{0}));
     static_assert(((times<decltype(Fields)> == 1) && ...), "tsubu::fields names a field twice; name each once");
+    template <class Field>
+    static constexpr std::size_t namesakes =
+        (std::size_t{0} + ... + (decltype(Fields)::name == Field::name ? std::size_t{1} : std::size_t{0}));
+    static_assert(((namesakes<decltype(Fields)> == 1) && ...),
+                  "two fields of a set have the same name; files and messages tell them by it: give each its own");
 
     template <class Field>
     static constexpr bool has = (std::is_same_v<std::remove_cv_t<decltype(Fields)>, std::remove_cv_t<Field>> || ...);

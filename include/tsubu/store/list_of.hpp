@@ -8,14 +8,16 @@
 #include <tsubu/core/expects.hpp>
 #include <tsubu/store/column.hpp>
 
-#include <algorithm>    // std::copy_n, std::max
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::uint32_t, std::uint64_t
-#include <limits>       // std::numeric_limits
-#include <span>         // std::span
-#include <string>       // std::to_string
-#include <type_traits>  // std::is_trivially_copyable_v
-#include <utility>      // std::exchange, std::move
+#include <algorithm>         // std::copy_n, std::max
+#include <concepts>          // std::integral
+#include <cstddef>           // std::size_t
+#include <cstdint>           // std::uint32_t, std::uint64_t
+#include <initializer_list>  // std::initializer_list
+#include <limits>            // std::numeric_limits
+#include <span>              // std::span
+#include <string>            // std::to_string
+#include <type_traits>       // std::is_trivially_copyable_v
+#include <utility>           // std::exchange, std::move
 
 namespace tsubu {
 
@@ -37,11 +39,28 @@ namespace tsubu {
 ///
 ///     inline constexpr tsubu::field<"contacts", tsubu::list_of<contact>> contacts{};
 ///
+/// A type to name, without objects: `contacts = {...}` says how a list is filled.
+///
 /// @tparam Element  trivially copyable.
 template <class Element>
 struct list_of {
     static_assert(std::is_trivially_copyable_v<Element>, "list_of holds a trivially copyable type");
     using element_type = Element;
+
+    template <class Any = Element>
+    constexpr list_of(std::initializer_list<Element>) {
+        refuse<Any>();
+    }
+    template <class Any>
+    constexpr list_of(const Any&) {
+        refuse<Any>();
+    }
+
+private:
+    template <class Any>
+    static constexpr void refuse() {
+        static_assert(sizeof(Any) == 0, "a list is filled after its particle is there: g[field][i].push_back(element)");
+    }
 };
 
 namespace detail {
@@ -261,7 +280,9 @@ private:
     [[no_unique_address]] lease until_;
 };
 
-/// The lists of some particles, which can be indexed and walked by number.
+/// The lists of some particles, which can be indexed and walked.
+///
+///     for (auto list : g[contacts]) list.clear();
 template <class Element, class Place, bool IsConst = false>
 class list_column {
     using pool = std::conditional_t<IsConst, const detail::list_pool<Element>, detail::list_pool<Element>>;
@@ -271,11 +292,18 @@ public:
         : place_(place), count_(count), pool_(&of), until_(until) {}
 
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
-    [[nodiscard]] list_reference<Element, IsConst> operator[](std::size_t i) const noexcept {
+    template <std::integral Index>
+    [[nodiscard]] list_reference<Element, IsConst> operator[](Index index) const noexcept {
+        const auto i = static_cast<std::size_t>(index);  // of a negative one: beyond all
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
         return {*pool_, place_.at(i), until_};
     }
+    [[nodiscard]] auto begin() const noexcept {
+        until_.check();
+        return detail::column_walk<list_column>(*this, 0);
+    }
+    [[nodiscard]] auto end() const noexcept { return detail::column_walk<list_column>(*this, count_); }
     [[nodiscard]] list_column part(std::size_t first, std::size_t count) const noexcept {
         TSUBU_EXPECTS(first + count <= count_, "a part that reaches beyond the column; ask size()");
         return {place_.from(first), count, *pool_, until_};

@@ -8,6 +8,7 @@
 #include <tsubu/store/field.hpp>
 
 #include <compare>      // std::strong_ordering
+#include <concepts>     // std::integral
 #include <cstddef>      // std::ptrdiff_t, std::size_t
 #include <iterator>     // std::random_access_iterator_tag
 #include <tuple>        // std::get, std::tuple
@@ -232,7 +233,9 @@ public:
         return {*store_, first_};
     }
     [[nodiscard]] iterator end() const noexcept { return begin() + static_cast<std::ptrdiff_t>(count_); }
-    [[nodiscard]] reference operator[](std::size_t i) const noexcept {
+    template <std::integral Index>
+    [[nodiscard]] reference operator[](Index index) const noexcept {
+        const auto i = static_cast<std::size_t>(index);  // of a negative one: beyond all
         until_.check();
         TSUBU_EXPECTS(i < count_, "no particle with this index; indices go from 0 to size() - 1");
         return {*store_, first_ + i};

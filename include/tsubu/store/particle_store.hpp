@@ -57,6 +57,9 @@ struct stored<bonus_of<Value>> {
     static constexpr bool is_bonus = true;
 };
 
+template <class Field>
+using stored_of = stored<typename std::remove_cv_t<Field>::value_type>;
+
 }  // namespace detail
 
 template <class Fields, class Layout = soa, class Growth = geometric_growth>
@@ -69,28 +72,26 @@ class particle_store;
 ///     for (auto& r : g[tsubu::radius]) r *= 2;
 ///     for (auto grain : g.owned()) grain[tsubu::position<3>][2] += 1;
 ///
-/// Columns, ranges and references are views: adding particles may end them, which debug builds tell where they
-/// are used.
+/// Columns, ranges and references are views: what ends them stands at "Invalidates"; debug builds tell it where one is
+/// used that is older than the memory.
 ///
 /// @tparam Fields  fields<...>
 /// @tparam Layout  a particle_layout: soa, aos or aosoa<N>; a program is the same for all.
 /// @tparam Growth  a growth_policy.
 ///
 /// Invariant:   owned_count() <= size() <= capacity(), and size() < 2^31.
-/// Invalidates: adding particles, reserve and permute end all views; removing ends those of removed particles; a moved
-///              store takes its views along, one that is assigned to ends its own.
+/// Invalidates: adding particles, reserve and permute end all views; removing ends those of removed particles; to
+///              move a store, and to assign to it, ends its own.
 /// Threads:     many readers, or one writer; different particles may be written by different threads.
 template <auto... F, class Layout, class Growth>
 class particle_store<fields<F...>, Layout, Growth> {
     static_assert(fields<F...>::count == sizeof...(F));  // first of all, what fields says of its arguments
-    using memory = typename Layout::template memory<
-        typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type...>;
-    using pools = std::tuple<typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::pool...>;
+    static_assert(sizeof...(F) > 0, "a store needs a field");
+    using memory = typename Layout::template memory<typename detail::stored_of<decltype(F)>::type...>;
+    using pools = std::tuple<typename detail::stored_of<decltype(F)>::pool...>;
     static_assert(particle_layout<Layout> && growth_policy<Growth>);
-    static_assert((std::is_trivially_copyable_v<
-                       typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type> &&
-                   ...),
-                  "a field holds a trivially copyable type, or list_of one");
+    static_assert((std::is_trivially_copyable_v<typename detail::stored_of<decltype(F)>::type> && ...),
+                  "a field holds a trivially copyable type, list_of or bonus_of one");
 
 public:
     using fields_type = fields<F...>;
@@ -101,12 +102,10 @@ public:
     using range = particle_range<particle_store>;
     using const_range = particle_range<const particle_store>;
     /// A particle that std::sort and its like hold outside of the store.
-    using record = particle_record<
-        fields_type, typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::held...>;
+    using record = particle_record<fields_type, typename detail::stored_of<decltype(F)>::held...>;
     /// The sum of the sizes of the fields [bytes]; of a list what says where it lies.
     static constexpr std::size_t bytes_per_particle =
-        (std::size_t{0} + ... +
-         sizeof(typename detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::type));
+        (std::size_t{0} + ... + sizeof(typename detail::stored_of<decltype(F)>::type));
     template <class Field>
     static constexpr bool has = fields_type::template has<Field>;
 
@@ -125,14 +124,17 @@ public:
           memory_(std::exchange(other.memory_, memory())),
           size_(std::exchange(other.size_, 0)),
           owned_(std::exchange(other.owned_, 0)),
-          allocation_(std::move(other.allocation_)) {}
+          allocation_(std::move(other.allocation_)) {
+        end_views();
+    }
     particle_store& operator=(particle_store other) noexcept {
         std::swap(pools_, other.pools_);
         std::swap(growth_, other.growth_);
         std::swap(memory_, other.memory_);
         std::swap(size_, other.size_);
         std::swap(owned_, other.owned_);
-        std::swap(allocation_, other.allocation_);
+        if (allocation_ == nullptr) std::swap(allocation_, other.allocation_);
+        end_views();
         return *this;
     }
     ~particle_store() = default;
@@ -196,6 +198,8 @@ public:
         set(i, given...);
         return static_cast<index_t>(i);
     }
+    /// A new ghost, behind all particles; as push_back.
+    /// @throws limit_error at 2^31 particles.
     template <class... Given>
     index_t push_back_ghost(const field_value<Given>&... given) {
         const auto i = add_ghosts(1);
@@ -209,8 +213,11 @@ public:
         owned_ = size_;
         return first;
     }
+    /// `count` ghosts more, all zeros; the index of the first. As push_back_ghost.
     std::size_t add_ghosts(std::size_t count) { return add(count); }
+    /// Removes all ghosts; their memory is kept for the next.
     void clear_ghosts() noexcept { shrink(owned_); }
+    /// Removes all particles; their memory is kept.
     void clear() noexcept {
         shrink(0);
         owned_ = 0;
@@ -261,20 +268,20 @@ public:
     }
 
 private:
+    void end_views() noexcept {
+        if (allocation_ != nullptr) ++*allocation_;
+    }
     template <class Store>
     friend class particle_reference;
     template <class Store>
     friend class particle_range;
 
     template <std::size_t K>
-    using kind_of =
-        std::tuple_element_t<K, std::tuple<detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>...>>;
+    using kind_of = std::tuple_element_t<K, std::tuple<detail::stored_of<decltype(F)>...>>;
     template <std::size_t K>
     using bonus_place_of = typename kind_of<K>::type;
-    static constexpr bool has_bonus =
-        (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_bonus || ...);
-    static constexpr bool has_pools =
-        has_bonus || (detail::stored<typename std::remove_cv_t<decltype(F)>::value_type>::is_list || ...);
+    static constexpr bool has_bonus = (detail::stored_of<decltype(F)>::is_bonus || ...);
+    static constexpr bool has_pools = has_bonus || (detail::stored_of<decltype(F)>::is_list || ...);
 
     [[nodiscard]] lease current_lease() const noexcept { return lease(allocation_.get()); }
     template <class Field, class Self>
@@ -329,7 +336,10 @@ private:
     template <class... Given>
     void set([[maybe_unused]] std::size_t i, const field_value<Given>&... given) {
         static_assert((has<Given> && ...), "this store has no such field; name it in fields<...>");
-        (static_cast<void>(memory_.template at<fields_type::template place<Given>()>(i) = given.value), ...);
+        // What lies in pools refuses by itself: see list_of and bonus_of.
+        constexpr bool has_pooled = ((detail::stored_of<Given>::is_list || detail::stored_of<Given>::is_bonus) || ...);
+        if constexpr ((has<Given> && ...) && !has_pooled)
+            (static_cast<void>(memory_.template at<fields_type::template place<Given>()>(i) = given.value), ...);
     }
     /// What lies outside the row is given up.
     void release_row([[maybe_unused]] std::size_t i) noexcept {

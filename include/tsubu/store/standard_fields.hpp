@@ -16,26 +16,31 @@ inline constexpr field<"id", std::int64_t> id{};
 /// Which material, or kind of atom.
 inline constexpr field<"species", std::int32_t> species{};
 template <std::size_t D, class Scalar = double>
-inline constexpr field<"position", vec<D, Scalar>, "m", field_traits{travels::every_step, under_image::translates}>
+inline constexpr field<"position", vec<D, Scalar>, "m",
+                       field_traits{.when = travels::every_step, .image = under_image::translates}>
     position{};
 template <std::size_t D, class Scalar = double>
-inline constexpr field<"velocity", vec<D, Scalar>, "m/s", field_traits{travels::every_step, under_image::rotates}>
+inline constexpr field<"velocity", vec<D, Scalar>, "m/s",
+                       field_traits{.when = travels::every_step, .image = under_image::rotates}>
     velocity{};
 template <std::size_t D, class Scalar = double>
-inline constexpr field<"force", vec<D, Scalar>, "N", field_traits{travels::never, under_image::rotates}> force{};
+inline constexpr field<"force", vec<D, Scalar>, "N",
+                       field_traits{.when = travels::never, .image = under_image::rotates, .reverse = ghosts_add::sum}>
+    force{};
 /// In two dimensions one number, about z.
 template <std::size_t D, class Scalar = double>
 inline constexpr field<"angular_velocity", vec<D == 2 ? 1 : 3, Scalar>, "rad/s",
-                       field_traits{travels::every_step, under_image::rotates}>
+                       field_traits{.when = travels::every_step, .image = under_image::rotates}>
     angular_velocity{};
 template <std::size_t D, class Scalar = double>
-inline constexpr field<"torque", vec<D == 2 ? 1 : 3, Scalar>, "N m", field_traits{travels::never, under_image::rotates}>
+inline constexpr field<"torque", vec<D == 2 ? 1 : 3, Scalar>, "N m",
+                       field_traits{.when = travels::never, .image = under_image::rotates, .reverse = ghosts_add::sum}>
     torque{};
 inline constexpr field<"radius", double, "m"> radius{};
 inline constexpr field<"mass", double, "kg"> mass{};
 /// How many periods of the box the particle has gone along each axis: position + shift L is where it would
 /// be unwrapped.
 template <std::size_t D>
-inline constexpr field<"image", vec<D, std::int64_t>, "", field_traits{travels::never}> image{};
+inline constexpr field<"image", vec<D, std::int64_t>, "", field_traits{.when = travels::never}> image{};
 
 }  // namespace tsubu

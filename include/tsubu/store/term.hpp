@@ -13,7 +13,9 @@
 
 namespace tsubu {
 
-/// Particles that belong together, and of which type the term is; type 0 is none.
+/// Particles that belong together, and of which type the term is. Type 0 is no term. A negative type is type -type,
+/// switched off, as in LAMMPS: kept, counted and resolved as any other, and written without its sign. That such a term
+/// does not act is up to the code that computes its force.
 template <std::size_t Order>
 struct term {
     static_assert(Order >= 2 && Order <= 4, "a term joins two, three or four particles");

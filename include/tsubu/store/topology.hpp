@@ -19,6 +19,7 @@
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <type_traits>  // std::remove_cv_t
+#include <utility>      // std::in_range
 #include <vector>       // std::vector
 
 namespace tsubu {
@@ -26,11 +27,14 @@ namespace tsubu {
 /// Each term is kept once: a bond by its first particle, any other by its second. Forces on its other particles are
 /// sent back to their owners.
 ///
-/// Choose it when terms are many and memory or time per term counts. Do not when forces must not travel.
+/// Choose it when terms are many and memory or time per term counts. Do not when forces of ghosts are not sent back.
 struct newton_on {
     static constexpr bool keeps_once = true;
 };
 /// Each term is kept by all of its particles, so that each computes its own force.
+///
+/// Choose it when forces of ghosts are not sent back. Do not when memory or time per term counts: a bond is kept and
+/// computed twice, an angle three times, a dihedral or an improper four times.
 struct newton_off {
     static constexpr bool keeps_once = false;
 };
@@ -52,7 +56,7 @@ struct topology {
     /// Whether the particle with this id keeps the term.
     [[nodiscard]] static constexpr bool keeps(const term_type& one, std::int64_t particle) noexcept {
         if constexpr (Newton::keeps_once)
-            return one.ids[main_one] == particle;
+            return one.ids[keeper_place] == particle;
         else
             return std::find(one.ids.begin(), one.ids.end(), particle) != one.ids.end();
     }
@@ -63,7 +67,7 @@ struct topology {
         if constexpr (order == 2)
             return particle <= other_end(one, particle);  // equal: a bond to itself, where that is allowed
         else
-            return one.ids[main_one] == particle;
+            return one.ids[keeper_place] == particle;
     }
 
     /// Whether the particle at place k of the term keeps it; of one that is in it twice, its first place does.
@@ -86,6 +90,7 @@ struct topology {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < order; ++k) {
             if (!keeps_at(added, k)) continue;
+            if (!std::in_range<typename Map::id_type>(added.ids[k])) continue;  // the map cannot have it
             const auto i = where.find(static_cast<typename Map::id_type>(added.ids[k]));
             if (i == absent || static_cast<std::size_t>(i) >= store.owned_count()) continue;
             keepers[kept++] = static_cast<std::size_t>(i);
@@ -131,6 +136,7 @@ struct topology {
     [[nodiscard]] static resolved resolve(const Store& store, const Map& where, const Links& same,
                                           Distance&& distance) {
         using id_type = typename Map::id_type;
+        constexpr auto nobody = static_cast<id_type>(-1);  // no particle has it: in no map
         resolved found;
         std::vector<id_type> wanted;
         const auto lists = store.owned()[Field];
@@ -138,7 +144,8 @@ struct topology {
             for (const auto& one : lists[i]) {
                 if (one.type == 0) continue;
                 found.keepers.push_back(static_cast<index_t>(i));
-                for (const auto particle : one.ids) wanted.push_back(static_cast<id_type>(particle));
+                for (const auto particle : one.ids)
+                    wanted.push_back(std::in_range<id_type>(particle) ? static_cast<id_type>(particle) : nobody);
             }
         std::vector<index_t> first(wanted.size());
         where.find(std::span<const id_type>(wanted), std::span<index_t>(first));
@@ -180,7 +187,7 @@ struct topology {
 private:
     static constexpr std::int64_t most_types = (std::numeric_limits<std::int32_t>::max)();  // as files have them
     // A bond is its first particle's, an angle, a dihedral, an improper its second's.
-    static constexpr std::size_t main_one = order == 2 ? 0 : 1;
+    static constexpr std::size_t keeper_place = order == 2 ? 0 : 1;
 
     [[nodiscard]] static constexpr std::int64_t other_end(const term_type& one, std::int64_t particle) noexcept {
         return one.ids[0] == particle ? one.ids[1] : one.ids[0];
@@ -192,6 +199,10 @@ private:
         if (one.type > most_types || one.type < -most_types)
             detail::raise<input_error>("topology::insert", "type " + std::to_string(one.type) + shown(one),
                                        "types go up to 2^31 - 1");
+        for (const auto particle : one.ids)
+            if (particle < 0)
+                detail::raise<input_error>("topology::insert", "particle " + std::to_string(particle) + shown(one),
+                                           "ids of particles are 0 or greater");
         for (std::size_t k = 0; k < order && !allows_repeats; ++k)
             for (std::size_t j = 0; j < k; ++j)
                 if (one.ids[j] == one.ids[k])

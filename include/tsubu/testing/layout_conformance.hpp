@@ -34,7 +34,8 @@ struct layout_law {
     static constexpr const char* gather = "law 4: after gather, row i is what row order[i] was";
     static constexpr const char* capacity = "law 5: reallocate makes room for what it is asked for";
     static constexpr const char* kept = "law 5: reallocate keeps the rows that it is asked to keep";
-    static constexpr const char* bytes = "law 6: memory_bytes() is the sum of the values, 1 % and a block more";
+    static constexpr const char* bytes =
+        "law 6: memory_bytes() is at most the sum of the values, 1 % and 128 bytes per value type more";
     static constexpr const char* copied = "law 7: a copy is independent of its source";
 };
 

@@ -5,6 +5,8 @@
 #include "unit/io/scratch_folder.hpp"
 #include "unit/thrown.hpp"
 
+#include <tsubu/io/byte_source.hpp>
+
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include <string>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using tsubu::atomic_file;
@@ -116,9 +119,11 @@ TEST_CASE("the system's refusals are told with name, reason and remedy", "[io][a
     const scratch_folder folder;
     const auto no_folder = thrown<file_error>([&] { atomic_file(folder / "none/run.vtp"); });
     INFO(no_folder);
-    CHECK(says(no_folder, "none/run.vtp"));
-    CHECK(says(no_folder, "No such file or directory"));
+    CHECK(says(no_folder, "cannot make " + (folder / "none/run.vtp") + ": No such file or directory"));
     CHECK(says(no_folder, "make the folder first"));
+    const auto no_file = thrown<file_error>([&] { tsubu::file_source(folder / "none/run.vtp"); });
+    CHECK(says(no_file, "cannot open " + (folder / "none/run.vtp") + ": No such file or directory"));
+    CHECK(says(no_file, "check the name and the folder"));
 
     write_bytes(folder / "plain", "");
     CHECK(says(thrown<file_error>([&] { atomic_file(folder / "plain/run.vtp"); }), "Not a directory"));
@@ -126,7 +131,7 @@ TEST_CASE("the system's refusals are told with name, reason and remedy", "[io][a
     std::filesystem::create_directory(folder / "taken");
     const auto taken = thrown<file_error>([&] { atomic_file(folder / "taken").commit(); });
     INFO(taken);
-    CHECK(says(taken, "cannot give its name to"));
+    CHECK(says(taken, "cannot write " + (folder / "taken")));
     CHECK(says(taken, "there is a folder with this name"));
     CHECK(folder.files() == 2);
 }
@@ -143,8 +148,7 @@ TEST_CASE("a full disk is told, and nothing is left on it", "[io][atomic_file][i
             file.commit();
         });
         INFO(message);
-        CHECK(says(message, "run.vtp"));
-        CHECK(says(message, "File too large; raise the limit"));
+        CHECK(says(message, "run.vtp: File too large; raise the limit"));
     }
     CHECK(folder.files() == 0);
     if (::access("/dev/full", W_OK) == 0) {
@@ -155,4 +159,13 @@ TEST_CASE("a full disk is told, and nothing is left on it", "[io][atomic_file][i
         INFO(message);
         CHECK(says(message, "cannot write /dev/full: No space left on device; free some space"));
     }
+}
+
+TEST_CASE("a pipe is neither replaced by a file nor waited for", "[io][atomic_file]") {
+    const scratch_folder folder;
+    const auto pipe = folder / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    CHECK(says(thrown<tsubu::input_error>([&] { tsubu::atomic_file file(pipe); }), "is a pipe or a device"));
+    CHECK(says(thrown<tsubu::input_error>([&] { tsubu::file_source file(pipe); }), "is not a file"));
+    CHECK(folder.files() == 1);
 }

@@ -9,16 +9,24 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
+#include <system_error>
+#include <type_traits>
 
 namespace {
 
-/// Whether read_number says and writes what std::from_chars does, to the bit.
+/// Whether read_number says and writes what std::from_chars does, to the bit; of what is too small for the type, 0.
 template <class Number>
 bool reads_as_standard(const std::string& text) {
     Number theirs{7};
-    const auto b = std::from_chars(text.data(), text.data() + text.size(), theirs);
+    auto b = std::from_chars(text.data(), text.data() + text.size(), theirs);
+    if constexpr (std::is_floating_point_v<Number>)
+        if (b.ec == std::errc::result_out_of_range && std::abs(std::strtold(text.c_str(), nullptr)) < 1) {
+            theirs = text[0] == '-' ? -Number{0} : Number{0};
+            b.ec = std::errc{};
+        }
     // Whatever follows the end of the text must not matter.
     bool same = true;
     for (const std::string behind : {"", "1", "12345678", " 1234567", ".5e7 1e-1"}) {
@@ -90,4 +98,26 @@ TEST_CASE("numbers of every length are read as the standard library reads them",
         check(std::to_string(odd - 1) + "99999999e-8");
     }
     CHECK(wrong == 0);
+}
+
+TEST_CASE("numbers too small for the type are zeros with their sign", "[io][decimal]") {
+    const auto read = [](const std::string& text, auto number) {
+        const std::string readable = text + std::string(16, ' ');
+        const auto* const begin = readable.data();
+        const auto [end, code] =
+            tsubu::detail::read_number(begin, begin + text.size(), begin + readable.size(), number);
+        CHECK(end == begin + text.size());
+        CHECK(code == std::errc{});
+        return number;
+    };
+    for (const auto* const text : {"1e-50", "0.00000000000000000000000000000000000000000000000000000001", "12345e-90"}) {
+        CHECK(read(text, 1.0F) == 0);
+        CHECK(std::signbit(read("-" + std::string(text), 1.0F)));
+    }
+    CHECK(read("1e-400", 1.0) == 0);
+    CHECK(read("0.0001e-99999999999999999999", 1.0) == 0);
+    double beyond = 1;
+    for (const std::string text : {"1e400", "100000e400", "0.001e500"})
+        CHECK(tsubu::detail::read_number(text.data(), text.data() + text.size(), text.data() + text.size(), beyond).ec ==
+              std::errc::result_out_of_range);
 }

@@ -191,6 +191,11 @@ TEST_CASE("errors name file, line, text and reason", "[io][lammps_reader]") {
              "some.lmp, line 26 \"20 1 1 0.25 0.1 0 0 0 -1 0\": a second particle with the id 20, which line 25 has"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1\n"), "an image flag is missing"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1 0 0\n"), "\"0\" follows the last column"));
+    CHECK(says(refusal_with("0.1 0 0 0 -1 0\n", "0.1 0 0\n"),
+               "the first row of Atoms has 10 columns, this one 7; give image flags in all rows or in none"));
+    CHECK(says(refusal_with("1 0.5 2 0 0 1\n", "1 0.5 2\n"),
+               "line 26 \"10 1 1 0.25 0.1 0 0 0 -1 0\": the first row of Atoms has 7 columns, this one 10"));
+    CHECK(says(refusal_with("1 0.5 2 0 0 1\n", "1 0.5 2 0\n"), "line 25 \"20 1 2 -0.5 1 0.5 2 0\": \"0\" follows"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1.5 0\n"), "an image flag \"-1.5\" is no integer"));
     CHECK(says(refusal_with("0 -1 0\n", "0 -1 0\n10 1 1 0.25 0.1 0 0 0 -1 0\n"),
                "row 5 of Atoms, but the header says 4"));

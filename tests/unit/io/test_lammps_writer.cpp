@@ -282,6 +282,29 @@ TEST_CASE("the style follows from the fields, or from the option", "[io][lammps_
                "tells a charge"));
 }
 
+TEST_CASE("fields that no style has together are refused, unless a style is named", "[io][lammps_writer]") {
+    using tsubu::fields;
+    using tsubu::id;
+    using tsubu::position;
+    tsubu::particle_store<fields<id, position<3>, tsubu::radius, tsubu::density, tsubu::angular_velocity<3>,
+                                 tsubu::bonds>>
+        chained;
+    chained.push_back(id = 1, tsubu::radius = 0.5, tsubu::density = 2.0);
+    CHECK(says(thrown<input_error>([&] { text_of(chained, unit_box); }),
+               "no atom style has radius and bonds; name one in lammps_write_options.style, or write a store without"));
+    CHECK(says(text_of(chained, unit_box, {.style = tsubu::atom_style::sphere}), "Atoms # sphere\n\n1 1 1 2 0 0 0\n"));
+    CHECK(says(text_of(chained, unit_box, {.style = tsubu::atom_style::bond}), "Atoms # bond\n\n1 0 1 0 0 0\n"));
+    tsubu::particle_store<fields<id, position<3>, tsubu::radius, tsubu::mass, tsubu::charge>> charged;
+    CHECK(says(thrown<input_error>([&] { text_of(charged, unit_box); }), "no atom style has radius and charge"));
+    tsubu::particle_store<fields<id, position<3>, tsubu::angular_velocity<3>, tsubu::molecule>> turning;
+    CHECK(says(thrown<input_error>([&] { text_of(turning, unit_box); }),
+               "no atom style has angular_velocity and molecule"));
+    tsubu::particle_store<fields<id, position<3>, tsubu::angular_velocity<3>>> points;
+    points.push_back(id = 1);
+    CHECK(says(thrown<input_error>([&] { text_of(points, unit_box); }),
+               "atom style sphere tells a radius, which the store lacks; set lammps_write_options.style to another"));
+}
+
 TEST_CASE("spheres are written with diameter, density and angular velocity", "[io][lammps_writer]") {
     using grain = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::radius, tsubu::density,
                                                       tsubu::velocity<2>, tsubu::angular_velocity<2>, tsubu::image<2>>>;
@@ -318,7 +341,7 @@ TEST_CASE("what a file cannot tell is refused", "[io][lammps_writer]") {
     CHECK(says(refused(id = 2, species = 0, mass = 1.0), "the species 0; types of LAMMPS begin with 1"));
     CHECK(says(refused(id = 2, species = 1, mass = 2.0), "particles of type 1 with masses 1 and 2"));
     CHECK(says(refused(id = 2, species = 1 << 30, mass = 2.0), "do not tell the masses of 1073741824 types"));
-    CHECK(says(refused(id = 2, species = 2, mass = 0.0), "no particle tells the mass of type 2"));
+    CHECK(says(refused(id = 2, species = 2, mass = 0.0), "a particle of type 2 with the mass 0; masses are"));
     CHECK(says(refused(id = 2, species = 1, mass = 1.0, tsubu::charge = infinity),
                "a value inf of the particle with id 2"));
     CHECK(says(refused(id = 2, species = 1, mass = 1.0, tsubu::velocity<3> = {0, 0, -infinity}), "a value -inf"));
@@ -381,4 +404,37 @@ TEST_CASE("chunks of any size give the same text", "[io][lammps_writer]") {
         CHECK(text == expected);
         CHECK(longest <= (std::max)(chunk, std::size_t{1024}));
     }
+}
+
+TEST_CASE("what LAMMPS cannot read back is not written", "[io][lammps_writer]") {
+    lammps_header top{.title = "", .lo = {0, 0, 0}, .hi = {1, 1, 1}};
+    tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::species, tsubu::position<3>, tsubu::bonds>> g;
+    g.push_back(tsubu::id = 1, tsubu::species = 1);
+    g[tsubu::bonds][0].push_back({1, {1, 0}});
+    CHECK(says(thrown<tsubu::input_error>([&] { text_of(g, top); }), "a term of particle 0"));
+
+    tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::species, tsubu::position<3>, tsubu::mass>> h;
+    for (const double weight : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+        h.clear();
+        h.push_back(tsubu::id = 1, tsubu::species = 1, tsubu::mass = weight);
+        h.push_back(tsubu::id = 2, tsubu::species = 1, tsubu::mass = 5);
+        CHECK(says(thrown<tsubu::input_error>([&] { text_of(h, top); }), "with the mass"));
+    }
+}
+
+TEST_CASE("one dimension is along x, one rotation about z", "[io][lammps_writer]") {
+    lammps_header top{.title = "", .lo = {0, 0, 0}, .hi = {9, 1, 1}};
+    using line = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::species, tsubu::position<1>, tsubu::velocity<1>,
+                                                     tsubu::image<1>>>;
+    line g;
+    g.push_back(tsubu::id = 1, tsubu::species = 1, tsubu::position<1> = {3.5}, tsubu::velocity<1> = {-2},
+                tsubu::image<1> = {5});
+    const auto text = text_of(g, top);
+    CHECK(says(text, "1 1 3.5 0 0 5 0 0"));
+    CHECK(says(text, "1 -2 0 0"));
+    line again;
+    read_text(text, again);
+    CHECK(again[tsubu::position<1>][0] == g[tsubu::position<1>][0]);
+    CHECK(again[tsubu::velocity<1>][0] == g[tsubu::velocity<1>][0]);
+    CHECK(again[tsubu::image<1>][0] == g[tsubu::image<1>][0]);
 }

@@ -227,7 +227,7 @@ TEST_CASE("any number of ranks reads what any number has written", "[io][restart
             std::vector<std::int64_t> ids;
             for (std::uint64_t r = 0; r < ranks; ++r) {
                 grains<> g;
-                file.read(g, set{}, tsubu::keep_all{}, {.rank = r, .ranks = ranks});
+                file.read(g, set{}, tsubu::every_particle{}, {.rank = r, .ranks = ranks});
                 for (const auto name : g[tsubu::id]) ids.push_back(name);
             }
             std::sort(ids.begin(), ids.end());
@@ -254,7 +254,7 @@ TEST_CASE("shares are alike, also when each rank has written one block", "[io][r
     const auto bytes = written(folder, {1, 1, 0, 1, 1}, 5);
     for (std::uint64_t r = 0; r < 4; ++r) {
         grains<> g;
-        reader_of(bytes).read(g, set{}, tsubu::keep_all{}, {.rank = r, .ranks = 4});
+        reader_of(bytes).read(g, set{}, tsubu::every_particle{}, {.rank = r, .ranks = 4});
         CHECK(g.size() == 1);
     }
 }
@@ -392,7 +392,7 @@ TEST_CASE("some fields of a file are read, in any order", "[io][restart]") {
         std::size_t count = 0;
         for (std::uint64_t r = 0; r < 3; ++r) {
             tsubu::particle_store<tsubu::fields<F...>> share;
-            file.read(share, some, tsubu::keep_all{}, {.rank = r, .ranks = 3});
+            file.read(share, some, tsubu::every_particle{}, {.rank = r, .ranks = 3});
             count += share.size();
         }
         CHECK(count == 97);
@@ -544,6 +544,20 @@ TEST_CASE("bodies that fit no particles are refused", "[io][restart][input]") {
     CHECK(says(refusal(with_body_word(4, 2)), "a bool that is neither true nor false"));
     CHECK(says(refusal(with_body_word(7, ~std::uint64_t{0})), "its words end too early"));
     CHECK(says(refusal(with_body_word(7, 1)), "block 0 of part 0: "));
+
+    constexpr tsubu::field<"fixed_axes", std::array<bool, 3>> fixed_axes;
+    tsubu::particle_store<tsubu::fields<fixed_axes>> g;
+    g.push_back(fixed_axes = {true, false, true});
+    tsubu::write_restart(folder / "axes.restart", g, tsubu::fields<fixed_axes>{});
+    auto axes = bytes_of(folder / "axes.restart");
+    const auto block = 8 * word_at(axes, 24);
+    REQUIRE(word_at(axes, block + 64) == 0x010001);
+    set_word(axes, block + 64, 0x020001);
+    set_word(axes, block + 40, tsubu::crc64_of(std::as_bytes(std::span(axes)).subspan(block + 64)));
+    set_word(axes, block + 56, tsubu::crc64_of(std::as_bytes(std::span(axes)).subspan(block, 56)));
+    CHECK(says(thrown<input_error>([&] { reader_of(axes).read(g, tsubu::fields<fixed_axes>{}); }),
+               "a bool that is neither true nor false"));
+    CHECK(g.size() == 1);
 }
 
 TEST_CASE("a store with ghosts, and a share that is none, are refused", "[io][restart][input]") {
@@ -553,9 +567,9 @@ TEST_CASE("a store with ghosts, and a share that is none, are refused", "[io][re
     g.push_back_ghost(tsubu::id = 1);
     CHECK(says(thrown<input_error>([&] { reader_of(bytes).read(g, set{}); }), "call clear_ghosts()"));
     g.clear_ghosts();
-    CHECK(
-        says(thrown<input_error>([&] { reader_of(bytes).read(g, set{}, tsubu::keep_all{}, {.rank = 2, .ranks = 2}); }),
-             "share 2 of 2"));
+    const tsubu::restart_share none{.rank = 2, .ranks = 2};
+    CHECK(says(thrown<input_error>([&] { reader_of(bytes).read(g, set{}, tsubu::every_particle{}, none); }),
+               "share 2 of 2"));
     CHECK(g.empty());
 }
 

@@ -146,6 +146,18 @@ TEST_CASE("memory for values comes in blocks of 8192", "[store][C2]") {
     CHECK(g.memory_bytes() - before == 8192 * (sizeof(axes) + sizeof(tsubu::index_t)));
 }
 
+TEST_CASE("values that only some have are walked particle by particle", "[store]") {
+    tsubu::particle_store<set> g;
+    g.add_owned(3);
+    g[shape][tsubu::index_t{1}].emplace({1, 2, 3});
+    std::vector<bool> found;
+    for (const auto one : g[shape]) found.push_back(one.has_value());
+    CHECK(found == std::vector<bool>{false, true, false});
+    std::size_t count = 0;
+    for (const auto one : std::as_const(g).all()[shape]) count += one ? 1U : 0U;
+    CHECK(count == 1);
+}
+
 TEST_CASE("the values of ghosts are found through their range", "[store]") {
     tsubu::particle_store<set> g;
     g.add_owned(2);

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <numeric>
 #include <ranges>
@@ -35,6 +36,23 @@ store<Layout> filled(std::int64_t count) {
 }
 
 }  // namespace
+
+TEMPLATE_TEST_CASE("columns and ranges take any integer as an index", "[store]", tsubu::soa, tsubu::aos,
+                   tsubu::aosoa<5>) {
+    auto g = filled<TestType>(10);
+    const auto ids = g[tsubu::id];
+    const tsubu::index_t i = 7;
+    CHECK(ids[i] == 7);
+    CHECK(ids[std::uint16_t{7}] == 7);
+    CHECK(ids[std::int64_t{7}] == 7);
+    CHECK(ids[std::uint64_t{7}] == 7);
+    CHECK(g.owned()[i][tsubu::id] == 7);
+#if defined(__unix__) && !defined(NDEBUG)
+    CHECK(says(last_words([&] { static_cast<void>(ids[tsubu::absent]); }), "no particle with this index"));
+    CHECK(says(last_words([&] { static_cast<void>(ids[std::int64_t{-1}]); }), "no particle with this index"));
+    CHECK(says(last_words([&] { static_cast<void>(g.owned()[tsubu::absent]); }), "no particle with this index"));
+#endif
+}
 
 TEMPLATE_TEST_CASE("a column can be indexed, walked and sorted in each layout", "[store]", tsubu::soa, tsubu::aos,
                    tsubu::aosoa<1>, tsubu::aosoa<5>, tsubu::aosoa<16>) {

@@ -34,7 +34,7 @@ TEST_CASE("a field of one's own is one line", "[store]") {
     STATIC_REQUIRE(field_type::unit == "K");
     STATIC_REQUIRE(field_type::traits.when == tsubu::travels::on_creation);
     STATIC_REQUIRE(field_type::traits.image == tsubu::under_image::invariant);
-    STATIC_REQUIRE(field_type::traits.reverse == tsubu::ghosts_add::sum);
+    STATIC_REQUIRE(field_type::traits.reverse == tsubu::ghosts_add::nothing);
     STATIC_REQUIRE(std::is_empty_v<field_type>);
     STATIC_REQUIRE(decltype(heat)::traits.when == tsubu::travels::never);
     STATIC_REQUIRE(decltype(heat)::traits.reverse == tsubu::ghosts_add::greatest);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -228,6 +229,22 @@ TEST_CASE("a list takes what fits 31 bits, and says so", "[store]") {
     CHECK(says(text, "tsubu::list_of: 2147483648 values of one particle; a particle holds fewer than 2^31"));
     CHECK(g[marks][0].size() == 1);
     CHECK(g[marks][0][0] == 7);
+}
+
+TEST_CASE("lists are walked particle by particle", "[store]") {
+    tsubu::particle_store<set> g;
+    for (auto list : g[marks]) list.push_back(9);
+    g.add_owned(2);
+    g.add_ghosts(1);
+    unsigned char next = 0;
+    for (auto list : g[marks]) list.push_back(next++);
+    CHECK(next == 3);
+    std::size_t sum = 0;
+    for (const auto list : std::as_const(g)[marks]) sum += list[0];
+    CHECK(sum == 3);
+    for (const auto list : g.ghosts()[marks]) CHECK(list[0] == 2);
+    CHECK(std::next(g[marks].begin(), 2) != g[marks].end());
+    CHECK(g[marks][tsubu::index_t{1}][0] == 1);
 }
 
 TEST_CASE("the lists of a range are those of its particles", "[store]") {

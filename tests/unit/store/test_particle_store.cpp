@@ -308,9 +308,11 @@ TEMPLATE_TEST_CASE("a copy is independent, a store that was moved from is empty"
     CHECK(g[contacts][0][0] == 0);
     CHECK(g[contacts][1].size() == 1);
     CHECK(copy.ghost_count() == 1);
-    const auto ids = g[tsubu::id];
+    [[maybe_unused]] const auto ids = g[tsubu::id];
     store moved = std::move(g);
-    CHECK(ids[10] == 77);  // views go along
+#ifndef NDEBUG
+    CHECK(says(last_words([&] { static_cast<void>(ids[10]); }), "older than its memory"));
+#endif
     CHECK(moved.owned_count() == 10);
     CHECK(g.empty());  // NOLINT(bugprone-use-after-move)
     CHECK(g.capacity() == 0);

@@ -36,3 +36,14 @@ TEST_CASE("what images do to a standard field, and when it travels", "[store]") 
     STATIC_REQUIRE(decltype(tsubu::image<3>)::traits.when == travels::never);
     STATIC_REQUIRE(decltype(tsubu::radius)::traits.when == travels::on_creation);
 }
+
+TEST_CASE("of the standard fields ghosts give back force and torque only", "[store]") {
+    using tsubu::ghosts_add;
+    STATIC_REQUIRE(decltype(tsubu::force<3>)::traits.reverse == ghosts_add::sum);
+    STATIC_REQUIRE(decltype(tsubu::torque<2>)::traits.reverse == ghosts_add::sum);
+    STATIC_REQUIRE(decltype(tsubu::id)::traits.reverse == ghosts_add::nothing);
+    STATIC_REQUIRE(decltype(tsubu::position<3>)::traits.reverse == ghosts_add::nothing);
+    STATIC_REQUIRE(decltype(tsubu::velocity<3>)::traits.reverse == ghosts_add::nothing);
+    STATIC_REQUIRE(decltype(tsubu::radius)::traits.reverse == ghosts_add::nothing);
+    STATIC_REQUIRE(decltype(tsubu::image<3>)::traits.reverse == ghosts_add::nothing);
+}

@@ -2,6 +2,7 @@
 #include <tsubu/store/topology.hpp>
 
 #include <tsubu/core/random.hpp>
+#include <tsubu/id/dense_storage.hpp>
 #include <tsubu/id/flat_storage.hpp>
 #include <tsubu/id/id_map.hpp>
 #include <tsubu/store/aos.hpp>
@@ -322,4 +323,24 @@ TEST_CASE("terms go with their particles: sorted, removed, added after another",
     r.g.swap_remove(0);
     CHECK(r.g[tsubu::bonds][0].empty());
     CHECK(bonding<newton_on>::count(r.g) == 2);
+}
+
+TEST_CASE("ids that no particle can have are refused, or found nowhere", "[store][topology]") {
+    tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::bonds>> g;
+    g.push_back(tsubu::id = 7);
+    g.push_back(tsubu::id = 9);
+    tsubu::id_map<tsubu::dense_storage<std::int32_t>> where;
+    where.rebuild(std::vector<std::int32_t>{7, 9});
+    using rules = tsubu::topology<tsubu::bonds, tsubu::newton_on>;
+    CHECK(says(thrown<tsubu::input_error>([&] { rules::insert(g, where, {1, {7, -9}}); }), "particle -9"));
+    const std::int64_t beyond = (std::int64_t{1} << 32) + 7;
+    CHECK(rules::insert(g, where, {1, {beyond, 9}}) == 0);
+    g[tsubu::bonds][0].push_back({1, {beyond, 9}});
+    const std::vector<std::int32_t> ids{7, 9};
+    tsubu::same_id_links same;
+    where.rebuild(ids, same);
+    const auto found = rules::resolve(g, where, same, [](tsubu::index_t, tsubu::index_t) { return 0.0; });
+    CHECK(found.incomplete == 1);
+    CHECK(found.places[0][0] == tsubu::absent);
+    CHECK(found.places[0][1] == 1);
 }

@@ -14,21 +14,23 @@
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
 #include <numbers>      // std::numbers::pi
-#include <type_traits>  // std::is_same_v
+#include <string>       // std::string, std::to_string
+#include <string_view>  // std::string_view
+#include <tuple>        // std::tuple_size_v
 #include <utility>      // std::in_range
 
 namespace tsubu::detail {
 
 template <class Real>
 struct atom_row {
-    std::int64_t name = 0;
-    std::int64_t of_molecule = 0;
+    std::int64_t particle_id = 0;
+    std::int64_t molecule = 0;
     std::int32_t type = 0;
-    double electric = 0;
+    double charge = 0;
     double diameter = 0;
-    double dense = 0;
-    vec<3, Real> at{};
-    vec<3, std::int64_t> periods{};
+    double density = 0;
+    vec<3, Real> position{};
+    vec<3, std::int64_t> image{};
 };
 
 /// Volume of a sphere; of a point (diameter 0) 1, since LAMMPS takes its density as its mass.
@@ -37,26 +39,33 @@ struct atom_row {
     return diameter == 0 ? 1.0 : 4.0 / 3.0 * std::numbers::pi * half * half * half;
 }
 
-/// @param with_images  whether three image flags follow
+/// @param columns  of the first row: three more than the style has if image flags follow
 template <class Real, class Row>
-[[nodiscard]] atom_row<Real> read_atom(Row& from, atom_style style, bool with_images, std::int32_t types) {
+[[nodiscard]] atom_row<Real> read_atom(Row& from, atom_style style, std::size_t columns, std::int32_t types) {
+    const auto all = from.rest();
+    const bool with_images = columns == atom_columns(style) + 3;
     atom_row<Real> atom;
-    atom.name = from.template next_from<std::int64_t>(1, "the id");
-    if (has_molecule(style)) atom.of_molecule = from.template next<std::int64_t>("the molecule");
+    atom.particle_id = from.template next_from<std::int64_t>(1, "the id");
+    if (has_molecule(style)) atom.molecule = from.template next<std::int64_t>("the molecule");
     atom.type = from.template next_from<std::int32_t>(1, "the type");
     if (atom.type > types) [[unlikely]]
         from.fail("type " + std::to_string(atom.type) + ", but the header has " + std::to_string(types) + " atom types",
                   "correct one of them");
     if (is_sphere(style)) {
         atom.diameter = from.template next<double>("the diameter");
-        atom.dense = from.template next<double>("the density");
-        if (atom.diameter < 0 || atom.dense <= 0) [[unlikely]]
+        atom.density = from.template next<double>("the density");
+        if (atom.diameter < 0 || atom.density <= 0) [[unlikely]]
             from.fail("a diameter below 0, or a density not above 0", "give 0 for a point, and a density above 0");
     }
-    if (has_charge(style)) atom.electric = from.template next<double>("the charge");
-    for (auto& x : atom.at) x = from.template next<Real>("a coordinate");
+    if (has_charge(style)) atom.charge = from.template next<double>("the charge");
+    for (auto& x : atom.position) x = from.template next<Real>("a coordinate");
+    if (from.is_at_end() == with_images) [[unlikely]]
+        if (const auto here = count_words(all); here != columns)
+            from.fail("the first row of Atoms has " + std::to_string(columns) + " columns, this one " +
+                          std::to_string(here),
+                      "give image flags in all rows or in none");
     if (with_images)
-        for (auto& n : atom.periods) n = from.template next<std::int64_t>("an image flag");
+        for (auto& n : atom.image) n = from.template next<std::int64_t>("an image flag");
     from.expect_end();
     return atom;
 }
@@ -76,24 +85,25 @@ template <class To, class From, class Row>
     }
 }
 
-/// What a position, a velocity, an angular velocity of a store takes of three components: all; x and y; or z, for a
-/// rotation in the plane.
-template <class Vector, class Real>
+/// Which of three components a vector of a store has: as many as its own, from x on; one of a rotation is about z.
+enum class components { of_vector, of_rotation };
+template <components Which, class Vector>
+inline constexpr std::size_t first_component =
+    Which == components::of_rotation && std::tuple_size_v<Vector> == 1 ? 2 : 0;
+
+template <components Which = components::of_vector, class Vector, class Real>
 void set_components(Vector& to, const vec<3, Real>& from) noexcept {
     constexpr auto count = std::tuple_size_v<Vector>;
-    if constexpr (count == 1)
-        to[0] = static_cast<typename Vector::value_type>(from[2]);
-    else
-        for (std::size_t k = 0; k < count; ++k) to[k] = static_cast<typename Vector::value_type>(from[k]);
+    static_assert(count >= 1 && count <= 3, "LAMMPS has vectors of up to three components");
+    for (std::size_t k = 0; k < count; ++k)
+        to[k] = static_cast<typename Vector::value_type>(from[first_component<Which, Vector> + k]);
 }
-template <class Real, class Vector>
+template <class Real, components Which = components::of_vector, class Vector>
 [[nodiscard]] vec<3, Real> three_components(const Vector& from) noexcept {
     constexpr auto count = std::tuple_size_v<Vector>;
+    static_assert(count >= 1 && count <= 3, "LAMMPS has vectors of up to three components");
     vec<3, Real> to{};
-    if constexpr (count == 1)
-        to[2] = from[0];
-    else
-        for (std::size_t k = 0; k < count; ++k) to[k] = from[k];
+    for (std::size_t k = 0; k < count; ++k) to[first_component<Which, Vector> + k] = from[k];
     return to;
 }
 
@@ -105,18 +115,20 @@ void append_atom(Store& store, const atom_row<Real>& atom, const Row& row) {
         if constexpr (has_named<Store, Name>)
             store[field_named<Store, Name>{}][i] = fitted<value_named<Store, Name>>(value, what, row);
     };
-    set.template operator()<"id">(atom.name, "the id");
-    set.template operator()<"molecule">(atom.of_molecule, "the molecule");
+    set.template operator()<"id">(atom.particle_id, "the id");
+    set.template operator()<"molecule">(atom.molecule, "the molecule");
     set.template operator()<"species">(atom.type, "the type");
-    set.template operator()<"charge">(atom.electric, "the charge");
+    set.template operator()<"charge">(atom.charge, "the charge");
     set.template operator()<"radius">(0.5 * atom.diameter, "the diameter");
-    set.template operator()<"density">(atom.dense, "the density");
-    set.template operator()<"mass">(atom.dense * volume_of(atom.diameter), "the mass");
+    set.template operator()<"density">(atom.density, "the density");
+    set.template operator()<"mass">(atom.density * volume_of(atom.diameter), "the mass");
     if constexpr (has_named<Store, "position">)
-        set_components(store[field_named<Store, "position">{}][i], atom.at);
+        set_components(store[field_named<Store, "position">{}][i], atom.position);
     if constexpr (has_named<Store, "image">) {
-        auto& periods = store[field_named<Store, "image">{}][i];
-        for (std::size_t k = 0; k < periods.size(); ++k) periods[k] = atom.periods[k];
+        auto& flags = store[field_named<Store, "image">{}][i];
+        static_assert(std::tuple_size_v<std::remove_reference_t<decltype(flags)>> <= 3,
+                      "LAMMPS has image flags of up to three axes");
+        for (std::size_t k = 0; k < flags.size(); ++k) flags[k] = atom.image[k];
     }
 }
 

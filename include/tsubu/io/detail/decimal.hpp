@@ -28,6 +28,7 @@ inline constexpr bool has_wide_division = true;
 __extension__ using wide_word = unsigned __int128;
 #else
 inline constexpr bool has_wide_division = false;
+using wide_word = void;
 #endif
 
 inline constexpr std::size_t most_digits = 19;  // 10^19 < 2^64
@@ -73,18 +74,18 @@ inline constexpr std::array<std::uint64_t, 9> short_powers_of_ten{1,      10,   
                                                                   100000, 1000000, 10000000, 100000000};
 
 /// m / 10^k, rounded to nearest. Precondition: k <= most_tenths, has_wide_division.
+template <class Wide = wide_word>
 [[nodiscard]] inline double quotient_by_ten(std::uint64_t m, std::size_t k) noexcept {
-#if defined(__SIZEOF_INT128__)
     // Texts of people have fewer digits, those of programs more: either way the branch can be foreseen.
     if (m < few && k <= most_exact) return static_cast<double>(m) / exact_powers_of_ten[k];
     if (m == 0) return 0.0;
     const auto& five = powers_of_five[k];
     const auto shift = std::countl_zero(m);
     const auto shifted = m << shift;
-    auto quotient = static_cast<std::uint64_t>((static_cast<wide_word>(shifted) * five.reciprocal) >> 64);
+    auto quotient = static_cast<std::uint64_t>((static_cast<Wide>(shifted) * five.reciprocal) >> 64);
     std::uint64_t rest = 1;
     if (((quotient + 1) & 0x1FF) <= 1) [[unlikely]] {  // a tie ends in a one and nine or ten zeros
-        const auto dividend = static_cast<wide_word>(shifted) << 63;
+        const auto dividend = static_cast<Wide>(shifted) << 63;
         quotient = static_cast<std::uint64_t>(dividend / five.shifted);
         rest = static_cast<std::uint64_t>(dividend) != quotient * five.shifted ? 1 : 0;
     }
@@ -92,9 +93,6 @@ inline constexpr std::array<std::uint64_t, 9> short_powers_of_ten{1,      10,   
     const auto rounded = static_cast<double>(static_cast<std::int64_t>((quotient >> 1) | (quotient & 1) | rest));
     const auto exponent = five.shift - shift - 62 - static_cast<int>(k);
     return rounded * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-#else
-    return static_cast<double>(m) / static_cast<double>(k);  // never called
-#endif
 }
 
 [[nodiscard]] constexpr bool is_digit(char c) noexcept { return static_cast<unsigned char>(c - '0') < 10; }
@@ -146,7 +144,29 @@ inline constexpr std::array<std::uint64_t, 9> short_powers_of_ten{1,      10,   
     return last;
 }
 
-/// As std::from_chars(from, end, value), to the bit.
+/// Of a number that a type cannot hold: because it is too small?
+[[nodiscard, gnu::cold]] inline bool is_tiny(const char* from, const char* end) noexcept {
+    long long before_point = 0;  // digits from the first one that is not 0, or less than 0: zeros after the point
+    bool has_point = false;
+    bool has_begun = false;
+    for (; from != end && *from != 'e' && *from != 'E'; ++from) {
+        has_point = has_point || *from == '.';
+        if (!is_digit(*from)) continue;
+        has_begun = has_begun || *from != '0';
+        if (has_begun && !has_point) ++before_point;
+        if (!has_begun && has_point) --before_point;
+    }
+    if (from == end) return before_point <= 0;
+    ++from;
+    const bool is_below = *from == '-';
+    long long exponent = 0;
+    constexpr long long enough = 1000000000;  // more than any text of that length can balance
+    for (; from != end; ++from)
+        if (is_digit(*from) && exponent < enough) exponent = 10 * exponent + (*from - '0');
+    return before_point + (is_below ? -exponent : exponent) <= 0;
+}
+
+/// As std::from_chars(from, end, value), to the bit; but numbers too small for the type are 0, with their sign.
 /// @param readable  up to which characters may be looked at, at least `end`
 template <class Number>
 [[nodiscard]] std::from_chars_result read_number(const char* from, const char* end, const char* readable,
@@ -181,7 +201,13 @@ template <class Number>
             return {at, std::errc{}};
         }
     }
-    return std::from_chars(from, end, value);
+    const auto result = std::from_chars(from, end, value);
+    if constexpr (std::floating_point<Number>)
+        if (result.ec == std::errc::result_out_of_range && is_tiny(from, result.ptr)) {
+            value = is_negative ? -Number{0} : Number{0};  // as near as the type has it
+            return {result.ptr, std::errc{}};
+        }
+    return result;
 }
 
 }  // namespace tsubu::detail

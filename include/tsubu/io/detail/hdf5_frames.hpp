@@ -6,7 +6,7 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/io/detail/hdf5_attribute.hpp>
 #include <tsubu/io/detail/hdf5_library.hpp>
-#include <tsubu/io/detail/hdf5_room.hpp>
+#include <tsubu/io/detail/hdf5_disk_space.hpp>
 #include <tsubu/io/detail/hdf5_unit.hpp>
 #include <tsubu/io/h5md_options.hpp>
 #include <tsubu/io/restart_state.hpp>
@@ -14,6 +14,7 @@
 
 #include <algorithm>    // std::clamp, std::max, std::min
 #include <array>        // std::array
+#include <cmath>        // std::isfinite
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
 #include <cstdio>       // std::remove
@@ -90,7 +91,7 @@ public:
         if (!file_.is_open()) return;
         close_all();
         static_cast<void>(hdf5_object(file_.release()));
-        return_room(file_.path());
+        return_disk_space(file_.path());
     }
     [[nodiscard]] hdf5_series& series(std::size_t k) noexcept { return series_[k]; }
 
@@ -106,7 +107,7 @@ public:
         if (frames_ != 0 && step <= last_step_)
             file_.refuse("", "step " + std::to_string(step) + " after step " + std::to_string(last_step_),
                          "append each step once, in their order");
-        if (!(time - time == 0))
+        if (!std::isfinite(time))
             file_.refuse("", "the time " + shown(time) + " of step " + std::to_string(step), "give finite times");
         if (frames_ != 0 && time < last_time_)
             file_.refuse("", "the time " + shown(time) + " after " + shown(last_time_), "time goes forwards");
@@ -186,7 +187,7 @@ public:
         if (!file_.is_open()) return;
         close_all();
         file_.checked(H5Fclose(file_.release()), "close", {});
-        return_room(file_.path());
+        return_disk_space(file_.path());
     }
 
 private:
@@ -217,7 +218,7 @@ private:
         void* descriptor = nullptr;
         file_.checked(H5Fget_filesize(file_.get(), &end), "ask the size of", {});
         file_.checked(H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &descriptor), "ask for the descriptor of", {});
-        reserve_room("h5md_writer", file_.path(), *static_cast<const int*>(descriptor), end, bytes);
+        reserve_disk_space("h5md_writer", file_.path(), *static_cast<const int*>(descriptor), end, bytes);
     }
 
     static constexpr hsize_t metadata_bytes = hsize_t{1} << 17;  // of an empty file: 20 kB; of a frame's box: less
@@ -242,7 +243,7 @@ private:
         cache.flash_incr_mode = H5C_flash_incr__off;
         cache.decr_mode = H5C_decr__off;
         file_.checked(H5Pset_mdc_config(access.get(), &cache), "make", {});
-        make_room("h5md_writer", file_.path(), options.replace, metadata_bytes);
+        make_with_disk_space("h5md_writer", file_.path(), options.replace, metadata_bytes);
         file_.take(H5Fcreate(file_.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "make");
     }
     void write_version(hid_t to, std::int32_t major, std::int32_t minor) {

@@ -98,7 +98,8 @@ template <class Lines>
             is_known = true;
         }
         if (is_known || is_room_hint(keyword) || unknown == unknown_lines::skip) continue;
-        numbers.fail("this is no line of a header", "skip unknown lines by option, or remove it");
+        numbers.fail("this is no line of a header",
+                     "set lammps_read_options.unknown to unknown_lines::skip, or remove it");
     }
     for (const auto face : face_names)
         if (!has_met(face)) lines.fail("the header before it has no line " + in_quotes(face), "give the box");

@@ -135,7 +135,7 @@ private:
         if (end_ == buffer_.size() && end_ == most_) {
             ++number_;
             line_ = {buffer_.data(), end_};
-            fail("a line of more than " + std::to_string(most_) + " characters", "raise the option chunk");
+            fail("a line of more than " + std::to_string(most_) + " characters", "raise lammps_read_options.chunk");
         }
         if (end_ == buffer_.size()) buffer_.resize((std::min)(2 * end_, most_));
         const auto room = std::span(buffer_).subspan(end_);

@@ -14,7 +14,7 @@
 #include <algorithm>    // std::min
 #include <array>        // std::array
 #include <bit>          // std::bit_cast
-#include <cstddef>      // std::byte, std::size_t
+#include <cstddef>      // offsetof, std::size_t
 #include <cstdint>      // std::uint64_t
 #include <cstring>      // std::memcpy
 #include <span>         // std::span
@@ -50,7 +50,24 @@ inline constexpr std::uint64_t restart_byte_order = 0x0102030405060708;
 inline constexpr std::uint64_t restart_other_byte_order = 0x0807060504030201;
 inline constexpr std::uint64_t restart_version = 1;  // of all this, and of the words that pack() writes
 inline constexpr std::size_t restart_least_header = 5;  // magic .. bytes of the file
-inline constexpr std::size_t restart_block_header = 8;
+inline constexpr std::uint64_t word_bytes = sizeof(std::uint64_t);
+
+/// In front of each block.
+struct restart_block {
+    std::uint64_t magic = restart_block_magic;
+    std::uint64_t part = 0;
+    std::uint64_t number = 0;  // in its part
+    std::uint64_t particles = 0;
+    std::uint64_t words = 0;  // of the body
+    std::uint64_t body_checksum = 0;
+    std::uint64_t file_checksum = 0;  // of the file's header
+    std::uint64_t checksum = 0;       // of those before
+    [[nodiscard]] std::uint64_t own_checksum() const noexcept {
+        return crc64_of(std::as_bytes(std::span(this, 1)).first(offsetof(restart_block, checksum)));
+    }
+};
+inline constexpr std::size_t restart_block_header = sizeof(restart_block) / word_bytes;
+static_assert(restart_block_header == 8);
 
 struct restart_header {
     restart_state state;
@@ -111,7 +128,7 @@ private:
         for (const auto number : {part.particles, part.blocks, part.bytes}) to.put(number);
     auto& words = to.words();
     header.words = words.size() + 1;
-    header.bytes = 8 * header.words;
+    header.bytes = word_bytes * header.words;
     for (const auto& part : header.parts) header.bytes += part.bytes;
     words[3] = header.words;
     words[4] = header.bytes;
@@ -148,7 +165,7 @@ public:
     }
     [[nodiscard]] std::string text() {
         const auto bytes = word();
-        if (bytes > 8 * left()) refuse("the header cannot hold a text of " + std::to_string(bytes) + " bytes");
+        if (bytes > word_bytes * left()) refuse("the header cannot hold a text of " + std::to_string(bytes) + " bytes");
         std::string text(static_cast<std::size_t>(bytes), '\0');
         if (!text.empty()) std::memcpy(text.data(), words_.data() + at_, text.size());
         at_ += (text.size() + 7) / 8;
@@ -170,7 +187,7 @@ template <byte_source Source>
     const std::string_view name = source.name();
     const auto size = source.size();
     std::array<std::uint64_t, restart_least_header> begin{};
-    constexpr auto begin_bytes = 8 * restart_least_header;
+    constexpr auto begin_bytes = word_bytes * restart_least_header;
     const auto has = static_cast<std::size_t>((std::min<std::uint64_t>)(size, begin_bytes));
     source.read(0, std::as_writable_bytes(std::span(begin)).first(has));
     if (has < 8 || begin[0] != restart_magic)
@@ -187,7 +204,7 @@ template <byte_source Source>
     restart_header header;
     header.words = begin[3];
     header.bytes = begin[4];
-    if (has < begin_bytes || header.words > size / 8)
+    if (has < begin_bytes || header.words > size / word_bytes)
         refuse_restart(name, size, "the file ends in its header", "it is not whole; take an older one");
     if (header.words <= restart_least_header) refuse_restart(name, 24, "the length of the header cannot be right");
     std::vector<std::uint64_t> words(static_cast<std::size_t>(header.words));
@@ -217,12 +234,12 @@ template <byte_source Source>
     for (auto& field : header.fields)
         for (auto* text : {&field.name, &field.type, &field.unit}) *text = from.text();
     header.parts.resize(from.count(3));
-    auto end = 8 * header.words;
+    auto end = word_bytes * header.words;
     for (auto& part : header.parts) {
         for (auto* number : {&part.particles, &part.blocks, &part.bytes}) *number = from.word();
         if (part.bytes > size - end) from.refuse("a part that reaches beyond the file");
         // Each particle takes a word, each block its header.
-        if (part.particles > part.bytes / 8 || part.blocks > part.bytes / (8 * restart_block_header))
+        if (part.particles > part.bytes / word_bytes || part.blocks > part.bytes / sizeof(restart_block))
             from.refuse("a part of " + std::to_string(part.bytes) + " bytes for " + std::to_string(part.particles) +
                         " particles in " + std::to_string(part.blocks) + " blocks");
         end += part.bytes;

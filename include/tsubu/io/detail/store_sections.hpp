@@ -5,6 +5,7 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/io/atom_style.hpp>
+#include <tsubu/io/detail/atom_row.hpp>
 #include <tsubu/io/detail/field_named.hpp>
 #include <tsubu/io/lammps_options.hpp>
 #include <tsubu/store/term.hpp>
@@ -51,13 +52,31 @@ template <class Store>
     return with_terms<Store>(section, []<auto>() {});
 }
 
+/// The first field of the store that keeps it from being one of spheres, or "".
 template <class Store>
-[[nodiscard]] constexpr atom_style least_style() noexcept {
-    if (has_named<Store, "charge">) return atom_style::full;
-    if (has_named<Store, "dihedrals"> || has_named<Store, "impropers">) return atom_style::molecular;
-    if (has_named<Store, "angles">) return atom_style::angle;
-    if (has_named<Store, "bonds"> || has_named<Store, "molecule">) return atom_style::bond;
-    return has_named<Store, "radius"> ? atom_style::sphere : atom_style::atomic;
+[[nodiscard]] constexpr std::string_view beyond_sphere() noexcept {
+    if (has_named<Store, "charge">) return "charge";
+    if (has_named<Store, "dihedrals">) return "dihedrals";
+    if (has_named<Store, "impropers">) return "impropers";
+    if (has_named<Store, "angles">) return "angles";
+    if (has_named<Store, "bonds">) return "bonds";
+    return has_named<Store, "molecule"> ? "molecule" : "";
+}
+/// @throws input_error if no style has all fields of the store.
+template <class Store>
+[[nodiscard]] atom_style least_style() {
+    constexpr auto other = beyond_sphere<Store>();
+    if (other.empty())
+        return lacking_in<Store>(atom_style::atomic).empty() ? atom_style::atomic : atom_style::sphere;
+    auto least = atom_style::bond;
+    if (other == "charge") least = atom_style::full;
+    if (other == "dihedrals" || other == "impropers") least = atom_style::molecular;
+    if (other == "angles") least = atom_style::angle;
+    if (const auto lacking = lacking_in<Store>(least); !lacking.empty())
+        raise<input_error>("lammps_writer",
+                           "no atom style has " + std::string(lacking) + " and " + std::string(other),
+                           "name one in lammps_write_options.style, or write a store without");
+    return least;
 }
 
 /// @throws input_error if the store lacks what rows of this style tell.
@@ -67,7 +86,7 @@ void check_style(atom_style style) {
         raise<input_error>("lammps_writer",
                            "atom style " + std::string(name_of(style)) + " tells a " + field +
                                ", which the store lacks",
-                           "choose another style, or give the store the field");
+                           "set lammps_write_options.style to another, or give the store the field");
     };
     if (has_charge(style) && !has_named<Store, "charge">) lack("charge");
     if (!is_sphere(style)) return;

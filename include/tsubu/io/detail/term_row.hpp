@@ -31,7 +31,7 @@ template <std::size_t Order, class Row>
         for (std::size_t j = 0; j < k; ++j)
             if (one.ids[j] == one.ids[k]) [[unlikely]]
                 from.fail("the id " + std::to_string(one.ids[k]) + " twice in a term",
-                          "a term joins different particles; allow repeats by option if that is meant");
+                          "a term joins different particles; set lammps_read_options.allows_repeats if that is meant");
     return one;
 }
 

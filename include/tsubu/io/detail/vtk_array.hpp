@@ -106,7 +106,8 @@ template <class Scalar>
             case '<': safe += "&lt;"; break;
             case '>': safe += "&gt;"; break;
             case '"': safe += "&quot;"; break;
-            default: safe += c;
+            // Other control characters XML cannot hold.
+            default: safe += static_cast<unsigned char>(c) < ' ' ? '?' : c;
         }
     }
     return safe;

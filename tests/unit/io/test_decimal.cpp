@@ -112,7 +112,7 @@ TEST_CASE("numbers too small for the type are zeros with their sign", "[io][deci
     };
     for (const auto* const text : {"1e-50", "0.00000000000000000000000000000000000000000000000000000001", "12345e-90"}) {
         CHECK(read(text, 1.0F) == 0);
-        CHECK(std::signbit(read("-" + std::string(text), 1.0F)));
+        CHECK(std::signbit(read(std::string("-").append(text), 1.0F)));
     }
     CHECK(read("1e-400", 1.0) == 0);
     CHECK(read("0.0001e-99999999999999999999", 1.0) == 0);

@@ -22,9 +22,8 @@
 /// is such a place: what is measured is the library, not the disk.
 
 #include "support/command_line.hpp"
-#include "support/progress.hpp"
+#include "support/groups.hpp"
 #include "support/row_reporter.hpp"
-#include "support/run_context.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/io/lammps_data_file.hpp>
@@ -507,12 +506,6 @@ void run_vtk(std::size_t count, row_reporter& report) {
 // ---------------------------------------------------------------------------------------------------------------
 // The plan
 
-struct group {
-    std::string name;
-    double weight;  ///< seconds, roughly: shares of the time that is left
-    std::function<void(row_reporter&)> run;
-};
-
 std::vector<group> plan(extent how_much) {
     using tsubu::atom_style;
     std::vector<std::size_t> sizes = {100'000};
@@ -547,26 +540,7 @@ constexpr const char* usage =
     "  --only TEXT only groups whose name contains it, such as io/read/full/N:1000000\n";
 
 int run(const options& chosen) {
-    auto groups = plan(chosen.how_much);
-    std::erase_if(groups, [&](const group& g) { return g.name.find(chosen.only) == std::string::npos; });
-    if (groups.empty()) {
-        std::fprintf(stderr, "bench_io: no group has \"%s\" in its name\n", chosen.only.c_str());
-        return 2;
-    }
-    double all = 0;
-    for (const auto& g : groups) all += g.weight;
-    auto context = run_context();
-    context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
-    row_reporter report(chosen.out, context);
-    progress shown(all);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        shown.begin(k + 1, groups.size(), groups[k].name);
-        groups[k].run(report);
-        shown.end(groups[k].weight);
-    }
-    report.close();
-    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
-    return EXIT_SUCCESS;
+    return run_groups("bench_io", plan(chosen.how_much), chosen);
 }
 
 }  // namespace

@@ -8,9 +8,8 @@
 /// different rows run in random order.
 
 #include "support/command_line.hpp"
-#include "support/progress.hpp"
+#include "support/groups.hpp"
 #include "support/row_reporter.hpp"
-#include "support/run_context.hpp"
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/random.hpp>
@@ -621,12 +620,6 @@ void run_growth(extent how_much, row_reporter& report) {
 // ---------------------------------------------------------------------------------------------------------------
 // The plan
 
-struct group {
-    std::string name;
-    double weight;  ///< seconds, roughly: shares of the time that is left
-    std::function<void(row_reporter&)> run;
-};
-
 std::vector<group> plan(extent how_much) {
     std::vector<group> groups;
     for (const std::size_t count : {10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
@@ -667,26 +660,7 @@ void keep_memory([[maybe_unused]] std::size_t bytes) {
 
 int run(const options& chosen) {
     keep_memory((chosen.how_much == extent::full ? std::size_t{11'000} : std::size_t{1'600}) << 20);
-    auto groups = plan(chosen.how_much);
-    std::erase_if(groups, [&](const group& g) { return g.name.find(chosen.only) == std::string::npos; });
-    double all = 0;
-    for (const auto& g : groups) all += g.weight;
-    if (groups.empty()) {
-        std::fprintf(stderr, "bench_store: no group has \"%s\" in its name\n", chosen.only.c_str());
-        return 2;
-    }
-    auto context = run_context();
-    context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
-    row_reporter report(chosen.out, context);
-    progress shown(all);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        shown.begin(k + 1, groups.size(), groups[k].name);
-        groups[k].run(report);
-        shown.end(groups[k].weight);
-    }
-    report.close();
-    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
-    return EXIT_SUCCESS;
+    return run_groups("bench_store", plan(chosen.how_much), chosen);
 }
 
 }  // namespace

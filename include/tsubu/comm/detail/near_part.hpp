@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Which particles of a rank are to be ghosts of another.
+#pragma once
+
+#include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/domain/concepts.hpp>
+
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::int64_t
+#include <limits>   // std::numeric_limits
+
+namespace tsubu::detail {
+
+/// Whether the image of a point lies within the cutoff of another rank's subdomain: in a domain the distance to it is
+/// at most the cutoff; in other boxes the point is within reach of it along each axis of the cell, which all points
+/// within the cutoff are. Rounding lets in points that are a few units in the last place too far, and keeps out none.
+template <decomposition Parts>
+class near_part {
+    using box_type = typename Parts::box_type;
+    using real_type = typename Parts::real_type;
+    static constexpr auto D = Parts::dimension;
+    static constexpr bool is_round = !reaching_box<box_type>;
+    using real_position_type = vec<D, real_type>;
+
+public:
+    /// @param there  the subdomain that asks for ghosts
+    /// @param shift  of these ghosts
+    template <class Mine, class There>
+    near_part(const Parts& parts, real_type cutoff, const Mine& here, const There& there, const image_shift<D>& shift)
+        : box_(&parts.whole()), shift_(shift) {
+        for (std::size_t k = 0; k < D; ++k) {
+            lo_[k] = there.lo()[k];
+            hi_[k] = there.hi()[k];
+        }
+        if constexpr (is_round)
+            reach_.fill(cutoff);
+        else
+            reach_ = box_->cell_reach(cutoff, here, there);
+        limit_ = cutoff * cutoff * (1 + 4 * std::numeric_limits<real_type>::epsilon());
+    }
+    /// How far it reaches along each axis of the cell [D].
+    [[nodiscard]] const real_position_type& reach() const noexcept { return reach_; }
+    /// @param at  a point of the box in coordinates of its cell
+    [[nodiscard]] bool has(const typename Parts::position_type& at) const noexcept {
+        if constexpr (cyclic_box<box_type>) {
+            // The same image by other shifts: once around, either way.
+            const auto around = static_cast<std::int64_t>(box_->sectors());
+            for (const auto turns : {-around, std::int64_t{0}, around})
+                if (is_near(box_->cell().image(at, {shift_[0] + turns, shift_[1], shift_[2]}))) return true;
+            return false;
+        } else {
+            return is_near(box_->cell().image(at, shift_));
+        }
+    }
+
+private:
+    [[nodiscard]] bool is_near(const real_position_type& x) const noexcept {
+        bool is_within_reach = true;
+        real_type square = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            const real_type below = lo_[k] - x[k];
+            const real_type above = x[k] - hi_[k];
+            const real_type gap = below > 0 ? below : above > 0 ? above : 0;
+            square += gap * gap;
+            is_within_reach = is_within_reach && gap <= reach_[k];
+        }
+        return is_round ? square <= limit_ : is_within_reach;
+    }
+
+    const box_type* box_;
+    image_shift<D> shift_;
+    real_position_type lo_{};
+    real_position_type hi_{};
+    real_position_type reach_{};
+    real_type limit_ = 0;
+};
+
+}  // namespace tsubu::detail

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// local_transport: ranks that are threads of one process.
+#pragma once
+
+#include <tsubu/comm/detail/rank_checks.hpp>
+#include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/types.hpp>
+
+#include <algorithm>           // std::max, std::min
+#include <condition_variable>  // std::condition_variable
+#include <cstddef>             // std::size_t
+#include <cstdint>             // std::uint64_t
+#include <deque>               // std::deque
+#include <exception>           // std::exception_ptr
+#include <map>                 // std::map
+#include <mutex>               // std::mutex
+#include <span>                // std::span
+#include <string>              // std::to_string
+#include <thread>              // std::thread
+#include <tuple>               // std::tuple
+#include <utility>             // std::move
+#include <vector>              // std::vector
+
+namespace tsubu {
+namespace detail {
+
+/// What the threads of a local_transport share: where they meet, and what they lay down for each other.
+class meeting_place {
+public:
+    explicit meeting_place(std::size_t ranks) : posts_(ranks) {}
+    [[nodiscard]] std::size_t ranks() const noexcept { return posts_.size(); }
+
+    /// What a rank shows the others between two meetings.
+    struct post {
+        std::span<const parcel> parcels;
+        std::span<const std::uint64_t> words;
+        std::span<const double> numbers;
+    };
+    [[nodiscard]] post& at(std::size_t rank) noexcept { return posts_[rank]; }
+
+    /// Waits until all ranks are here. @throws lost_rank_error if one has ended.
+    void meet() {
+        std::unique_lock lock(mutex_);
+        refuse_if_broken();
+        if (++here_ == ranks()) {
+            here_ = 0;
+            ++meetings_;
+            changed_.notify_all();
+            return;
+        }
+        changed_.wait(lock, [this, now = meetings_] { return meetings_ != now || is_broken_; });
+        refuse_if_broken();
+    }
+    void put(rank_t from, rank_t to, int tag, std::vector<std::uint64_t> words) {
+        const std::lock_guard lock(mutex_);
+        ways_[{from, to, tag}].push_back(std::move(words));
+        changed_.notify_all();
+    }
+    [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag) {
+        std::unique_lock lock(mutex_);
+        auto& way = ways_[{from, to, tag}];
+        changed_.wait(lock, [&] { return !way.empty() || is_broken_; });
+        refuse_if_broken();
+        auto words = std::move(way.front());
+        way.pop_front();
+        return words;
+    }
+    /// A rank has ended: nobody is to wait for it.
+    void leave() noexcept {
+        const std::lock_guard lock(mutex_);
+        is_broken_ = true;
+        changed_.notify_all();
+    }
+
+private:
+    void refuse_if_broken() const {
+        if (is_broken_)
+            throw lost_rank_error("tsubu::local_transport: another rank has ended by an exception; see that one");
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<post> posts_;
+    std::map<std::tuple<rank_t, rank_t, int>, std::deque<std::vector<std::uint64_t>>> ways_;
+    std::size_t here_ = 0;
+    std::uint64_t meetings_ = 0;
+    bool is_broken_ = false;
+};
+
+}  // namespace detail
+
+/// One of several ranks of a process, each in a thread: made by run_ranks.
+///
+/// Concept:      transport.
+/// Cost:         two meetings of all threads per collective; O(ranks) per rank for an exchange.
+/// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
+class local_transport {
+public:
+    local_transport(detail::meeting_place& place, rank_t rank) noexcept : place_(&place), rank_(rank) {}
+
+    [[nodiscard]] rank_t rank() const noexcept { return rank_; }
+    [[nodiscard]] std::size_t ranks() const noexcept { return place_->ranks(); }
+
+    /// @throws input_error if there is no such rank, before any message: the others then get a lost_rank_error.
+    [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
+        for (const auto& one : parcels) detail::check_parcel("local_transport::exchange", one, ranks());
+        mailbox came;
+        together({parcels, sums, {}}, [&] {
+            for (std::size_t from = 0; from < ranks(); ++from)
+                for (const auto& one : place_->at(from).parcels)
+                    if (one.rank == rank_) came.add(parcel{static_cast<rank_t>(from), one.words});
+            return reduced<std::uint64_t>(sums.size(), reduction::sum);
+        }, sums);
+        return came;
+    }
+    void reduce(std::span<std::uint64_t> numbers, reduction how) {
+        together({{}, numbers, {}}, [&] { return reduced<std::uint64_t>(numbers.size(), how); }, numbers);
+    }
+    void reduce(std::span<double> numbers, reduction how) {
+        together({{}, {}, numbers}, [&] { return reduced<double>(numbers.size(), how); }, numbers);
+    }
+    [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
+        mailbox came;
+        together({{}, words, {}}, [&] {
+            for (std::size_t from = 0; from < ranks(); ++from)
+                came.add(parcel{static_cast<rank_t>(from), place_->at(from).words});
+            return std::vector<std::uint64_t>();
+        }, std::span<std::uint64_t>());
+        return came;
+    }
+    [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
+        std::uint64_t sum = 0;
+        together({{}, {&n, 1}, {}}, [&] {
+            for (std::size_t from = 0; from < rank_; ++from) sum += place_->at(from).words[0];
+            return std::vector<std::uint64_t>();
+        }, std::span<std::uint64_t>());
+        return sum;
+    }
+    [[nodiscard]] int next_tag() noexcept { return tag_++; }
+
+    /// See transport.
+    class channel {
+    public:
+        channel(local_transport& on, int tag, std::vector<lane> out, std::vector<lane> in)
+            : place_(on.place_),
+              rank_(on.rank_),
+              tag_(tag),
+              out_lanes_(std::move(out)),
+              in_lanes_(std::move(in)),
+              out_(detail::words_of(out_lanes_)),
+              in_(detail::words_of(in_lanes_)) {}
+        [[nodiscard]] std::span<std::uint64_t> out() noexcept { return out_; }
+        [[nodiscard]] std::span<const std::uint64_t> in() const noexcept { return in_; }
+        void start() {
+            auto at = out_.begin();
+            for (const auto& [to, words] : out_lanes_) {
+                const auto end = at + static_cast<std::ptrdiff_t>(words);
+                place_->put(rank_, to, tag_, {at, end});
+                at = end;
+            }
+        }
+        void finish() {
+            auto at = in_.begin();
+            for (const auto& [from, words] : in_lanes_) {
+                const auto came = place_->take(from, rank_, tag_);
+                if (came.size() != words)
+                    detail::raise<input_error>("local_transport::channel",
+                                               "rank " + std::to_string(from) + " sent " + std::to_string(came.size()) +
+                                                   " words where " + std::to_string(words) + " were expected",
+                                               "call the same functions with the same fields on all ranks");
+                at = std::copy(came.begin(), came.end(), at);
+            }
+        }
+
+    private:
+        detail::meeting_place* place_;
+        rank_t rank_;
+        int tag_;
+        std::vector<lane> out_lanes_;
+        std::vector<lane> in_lanes_;
+        std::vector<std::uint64_t> out_;
+        std::vector<std::uint64_t> in_;
+    };
+
+private:
+    // Shows what this rank has, meets, looks at what the others show, meets again; then the answer may take the place
+    // of what was shown.
+    template <class Look, class Number>
+    void together(detail::meeting_place::post mine, Look&& look, std::span<Number> answer) {
+        place_->at(rank_) = mine;
+        place_->meet();
+        const auto found = look();
+        place_->meet();
+        std::copy(found.begin(), found.end(), answer.begin());
+    }
+    template <class Number>
+    [[nodiscard]] std::vector<Number> reduced(std::size_t count, reduction how) const {
+        std::vector<Number> all;
+        for (std::size_t from = 0; from < ranks(); ++from) {
+            const auto& shown = place_->at(from);
+            const auto theirs = [&] {
+                if constexpr (std::is_same_v<Number, double>)
+                    return shown.numbers;
+                else
+                    return shown.words;
+            }();
+            if (theirs.size() != count)
+                detail::raise<input_error>("local_transport",
+                                           "rank " + std::to_string(from) + " reduces " +
+                                               std::to_string(theirs.size()) + " numbers, this one " +
+                                               std::to_string(count),
+                                           "call the same functions on all ranks");
+            if (all.empty()) {
+                all.assign(theirs.begin(), theirs.end());
+                continue;
+            }
+            for (std::size_t k = 0; k < count; ++k)
+                all[k] = how == reduction::sum     ? all[k] + theirs[k]
+                         : how == reduction::least ? (std::min)(all[k], theirs[k])
+                                                   : (std::max)(all[k], theirs[k]);
+        }
+        return all;
+    }
+
+    detail::meeting_place* place_;
+    rank_t rank_;
+    int tag_ = 0;
+};
+static_assert(transport<local_transport>);
+
+/// Runs body(on) as each of so many ranks, in a thread each, and waits for all.
+///
+///     tsubu::run_ranks(4, [](tsubu::local_transport& on) { ... });
+///
+/// @throws what the lowest rank threw that did not merely wait for another one; all threads have ended then.
+template <class Body>
+void run_ranks(std::size_t ranks, Body&& body) {
+    detail::meeting_place place(ranks);
+    std::vector<std::exception_ptr> thrown(ranks);
+    std::vector<char> has_waited(ranks, 0);  // not vector<bool>, whose bits threads would share
+    std::vector<std::thread> threads;
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+        threads.emplace_back([&, rank] {
+            try {
+                local_transport on(place, static_cast<rank_t>(rank));
+                body(on);
+            } catch (const lost_rank_error&) {
+                thrown[rank] = std::current_exception();
+                has_waited[rank] = 1;
+            } catch (...) {
+                thrown[rank] = std::current_exception();
+            }
+            if (thrown[rank]) place.leave();
+        });
+    for (auto& one : threads) one.join();
+    for (const bool waited : {false, true})
+        for (std::size_t rank = 0; rank < ranks; ++rank)
+            if (thrown[rank] && (has_waited[rank] != 0) == waited) std::rethrow_exception(thrown[rank]);
+}
+
+}  // namespace tsubu

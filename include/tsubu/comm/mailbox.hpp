@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// parcel and mailbox: words for a rank, and what came from ranks.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/types.hpp>
+
+#include <algorithm>  // std::copy_n, std::stable_sort
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint64_t
+#include <span>       // std::span
+#include <utility>    // std::move
+#include <vector>     // std::vector
+
+namespace tsubu {
+
+/// Words to a rank, or from one; a view.
+struct parcel {
+    rank_t rank;
+    std::span<const std::uint64_t> words;
+};
+
+/// What came from other ranks.
+///
+///     for (const auto& [rank, words] : on.exchange(parcels, {})) ...
+class mailbox {
+public:
+    [[nodiscard]] std::size_t size() const noexcept { return letters_.size(); }
+    [[nodiscard]] bool empty() const noexcept { return letters_.empty(); }
+    [[nodiscard]] parcel operator[](std::size_t k) const noexcept {
+        const auto& one = letters_[k];
+        return {one.from, {one.words.data(), one.words.size()}};
+    }
+    /// Of all parcels.
+    [[nodiscard]] std::size_t words() const noexcept {
+        std::size_t sum = 0;
+        for (const auto& one : letters_) sum += one.words.size();
+        return sum;
+    }
+
+    class iterator {
+    public:
+        iterator(const mailbox& of, std::size_t at) noexcept : of_(&of), at_(at) {}
+        parcel operator*() const noexcept { return (*of_)[at_]; }
+        iterator& operator++() noexcept {
+            ++at_;
+            return *this;
+        }
+        friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.at_ == b.at_; }
+
+    private:
+        const mailbox* of_;
+        std::size_t at_;
+    };
+    [[nodiscard]] iterator begin() const noexcept { return {*this, 0}; }
+    [[nodiscard]] iterator end() const noexcept { return {*this, size()}; }
+
+    /// For transports: room for a parcel, to be filled. Ends what is left of earlier answers.
+    [[nodiscard]] std::span<std::uint64_t> add(rank_t from, std::size_t words) {
+        letters_.push_back({from, buffer<std::uint64_t>(words, {})});
+        return {letters_.back().words.data(), words};
+    }
+    void add(rank_t from, buffer<std::uint64_t>&& words) { letters_.push_back({from, std::move(words)}); }
+    /// A parcel with these words.
+    void add(const parcel& one) {
+        const auto room = add(one.rank, one.words.size());
+        std::copy_n(one.words.data(), one.words.size(), room.data());
+    }
+    /// By rank of the sender; those of one sender stay in their order.
+    void sort() {
+        std::stable_sort(letters_.begin(), letters_.end(),
+                         [](const letter& a, const letter& b) { return a.from < b.from; });
+    }
+
+private:
+    struct letter {
+        rank_t from;
+        buffer<std::uint64_t> words;
+    };
+
+    std::vector<letter> letters_;
+};
+
+}  // namespace tsubu

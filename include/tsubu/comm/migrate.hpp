@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// migrate: every particle goes to the rank that owns its position.
+#pragma once
+
+#include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/detail/rank_checks.hpp>
+#include <tsubu/comm/detail/frame.hpp>
+#include <tsubu/comm/detail/rows.hpp>
+#include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/domain/concepts.hpp>
+#include <tsubu/store/pack.hpp>
+#include <tsubu/store/particle_store.hpp>
+
+#include <algorithm>  // std::sort
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint64_t
+#include <new>        // std::bad_alloc
+#include <span>       // std::span
+#include <string>     // std::string
+#include <type_traits>  // std::is_same_v
+#include <utility>    // std::pair
+#include <vector>     // std::vector
+
+namespace tsubu {
+
+/// For migrate: a particle that has left the box through a face that is not periodic is an error.
+struct refuse_lost {};
+/// For migrate: it is moved to the nearest point of the box.
+struct clamp_lost {};
+/// For migrate: it is moved to another store of this rank, with all fields that this has too.
+template <class Store>
+struct collect_lost {
+    Store& into;
+};
+template <class Store>
+collect_lost(Store&) -> collect_lost<Store>;
+
+/// What a migration has done on one rank.
+struct migration {
+    std::size_t sent = 0;      ///< particles that went to other ranks
+    std::size_t received = 0;  ///< particles that came
+    std::size_t lost = 0;      ///< particles that had left the box, and were collected or clamped
+};
+
+namespace detail {
+
+/// Who has to go, and where.
+struct leaver {
+    rank_t to;
+    index_t index;
+    friend constexpr auto operator<=>(const leaver&, const leaver&) noexcept = default;
+};
+
+template <class Store, class Parts>
+class migrator {
+    using frame_type = frame<Store, typename Parts::box_type>;
+    using position_type = typename Parts::position_type;
+
+public:
+    migrator(Store& store, const Parts& parts, rank_t rank) : store_(store), parts_(parts), rank_(rank) {}
+
+    /// Finds who leaves; wraps those that are outside, and settles those that no wrap brings inside.
+    template <class OnLost>
+    void find(OnLost& on_lost) {
+        const auto mine = parts_.subdomain(rank_);
+        const auto position = store_.owned()[frame_type::position];
+        std::vector<index_t> outside(store_.owned_count());
+        outside.resize(positions_outside(mine, position, outside));
+        // First look, then touch: what throws leaves the store as it was.
+        std::vector<std::pair<index_t, wrapped_type>> moved;
+        for (const auto i : outside) {
+            const auto& x = position[static_cast<std::size_t>(i)];
+            if (parts_.whole().contains(x)) {
+                add(i, x);
+                continue;
+            }
+            auto fresh = wrap(i, x);
+            if (!parts_.whole().contains(fresh.position)) {
+                lost_.push_back(i);
+                if constexpr (std::is_same_v<OnLost, clamp_lost>)
+                    fresh.position = clamped(fresh.position);
+                else
+                    continue;
+            }
+            moved.emplace_back(i, fresh);
+            add(i, fresh.position);
+        }
+        if constexpr (std::is_same_v<OnLost, refuse_lost>) refuse_if_lost(position);
+        static_cast<void>(on_lost);
+        std::sort(leavers_.begin(), leavers_.end());
+        for (const auto& [i, fresh] : moved) frame_type::settle(store_, parts_.whole(), i, fresh);
+    }
+    /// Packs the leavers of each rank: their number, then they.
+    void pack_leavers() {
+        constexpr typename Store::fields_type set{};
+        indices_.reserve(leavers_.size());
+        for (const auto& one : leavers_) indices_.push_back(one.index);
+        std::size_t words = 0;
+        each_destination([&](rank_t, std::span<const index_t> chosen) { words += 1 + packed_words(store_, set, chosen); });
+        words_ = buffer<std::uint64_t>(words, {});
+        std::size_t at = 0;
+        each_destination([&](rank_t to, std::span<const index_t> chosen) {
+            words_[at] = chosen.size();
+            const auto room = std::span(words_.data() + at, words - at);
+            const auto used = 1 + pack(store_, set, chosen, room.subspan(1));
+            parcels_.push_back({to, room.first(used)});
+            at += used;
+        });
+    }
+    [[nodiscard]] std::span<const parcel> parcels() const noexcept { return parcels_; }
+    [[nodiscard]] std::size_t sent() const noexcept { return leavers_.size(); }
+    [[nodiscard]] std::size_t received() const noexcept { return received_; }
+    [[nodiscard]] std::span<const index_t> lost() const noexcept { return lost_; }
+
+    void unpack_arrivals(const mailbox& came) {
+        constexpr typename Store::fields_type set{};
+        std::size_t count = 0;
+        for (const auto& [from, words] : came) count += static_cast<std::size_t>(words[0]);
+        auto first = store_.add_owned(count);
+        received_ = count;
+        for (const auto& [from, words] : came) {
+            const auto here = static_cast<std::size_t>(words[0]);
+            unpack(store_, set, first, here, words.subspan(1));
+            first += here;
+        }
+    }
+    /// Undoes unpack_arrivals.
+    void drop_arrivals() { drop_rows(store_, before_); }
+    /// Those that have gone leave their places to the last ones.
+    template <class OnLost>
+    void remove_leavers() {
+        auto& gone = indices_;
+        if constexpr (!std::is_same_v<OnLost, clamp_lost>) gone.insert(gone.end(), lost_.begin(), lost_.end());
+        std::sort(gone.begin(), gone.end());
+        for (auto k = gone.size(); k-- > 0;) store_.swap_remove(static_cast<std::size_t>(gone[k]));
+    }
+
+private:
+    using wrapped_type = wrapped<Parts::dimension, typename Parts::scalar_type>;
+
+    template <class Mine, class Column>
+    static std::size_t positions_outside(const Mine& mine, const Column& position, std::vector<index_t>& outside) {
+        if constexpr (requires { position.span(); }) {
+            return mine.leavers(points<Parts::dimension, const typename Parts::scalar_type>(position.span()), outside);
+        } else {
+            std::size_t found = 0;
+            for (std::size_t i = 0; i < position.size(); ++i)
+                if (!mine.owns(position[i])) outside[found++] = static_cast<index_t>(i);
+            return found;
+        }
+    }
+    void add(index_t i, const position_type& x) {
+        if (const auto to = parts_.owner(x); to != rank_) leavers_.push_back({to, i});
+    }
+    [[nodiscard]] wrapped_type wrap(index_t i, const position_type& x) const {
+        try {
+            return parts_.whole().wrap(x);
+        } catch (const input_error& why) {
+            throw input_error("tsubu::migrate: particle " + named(i) + ": " + why.what());
+        }
+    }
+    [[nodiscard]] position_type clamped(const position_type& x) const {
+        const auto& box = parts_.whole();
+        auto at = box.to_cell(x);
+        for (std::size_t k = 0; k < Parts::dimension; ++k) {
+            const auto inside = box.cell().along(k).inside();
+            at[k] = at[k] < inside.first ? inside.first : inside.last < at[k] ? inside.last : at[k];
+        }
+        return box.from_cell(at);
+    }
+    [[nodiscard]] std::string named(index_t i) const {
+        if constexpr (Store::template has<decltype(tsubu::id)>)
+            return std::to_string(store_[tsubu::id][static_cast<std::size_t>(i)]);
+        else
+            return "at index " + std::to_string(i);
+    }
+    template <class Column>
+    void refuse_if_lost(const Column& position) const {
+        if (lost_.empty()) return;
+        constexpr std::size_t most_named = 8;
+        std::string which;
+        for (std::size_t k = 0; k < lost_.size() && k < most_named; ++k)
+            which += (k == 0 ? "" : ", ") + named(lost_[k]) + " at " +
+                     shown(position[static_cast<std::size_t>(lost_[k])]);
+        if (lost_.size() > most_named) which += ", ...";
+        raise<input_error>("migrate",
+                           "rank " + std::to_string(rank_) + ": " + std::to_string(lost_.size()) +
+                               " particles have left the box: " + which,
+                           "collect or clamp them, enlarge the box, or take a smaller time step");
+    }
+    template <class Body>
+    void each_destination(Body&& body) const {
+        for (std::size_t first = 0, end = 0; first < leavers_.size(); first = end) {
+            while (end < leavers_.size() && leavers_[end].to == leavers_[first].to) ++end;
+            body(leavers_[first].to, std::span(indices_).subspan(first, end - first));
+        }
+    }
+
+    Store& store_;
+    const Parts& parts_;
+    rank_t rank_;
+    std::size_t before_ = store_.owned_count();
+    std::vector<leaver> leavers_;
+    std::vector<index_t> lost_;
+    std::vector<index_t> indices_;  // of the leavers
+    buffer<std::uint64_t> words_;
+    std::vector<parcel> parcels_;
+    std::size_t received_ = 0;
+};
+
+}  // namespace detail
+
+/// Sends every particle to the rank that owns its position, however far it has gone; ghosts are cleared.
+///
+///     tsubu::migrate(grains, bricks, on);
+///     tsubu::migrate(grains, bricks, on, tsubu::collect_lost(outside));
+///
+/// A position beyond a periodic face is wrapped; a field `image` counts the periods, and fields that turn with images
+/// are turned. Those that stay are not touched, those that come are the last ones, by rank of their sender. What goes is all fields
+/// of the store.
+///
+/// @param on_lost  what becomes of particles beyond faces that are not periodic: refuse_lost, clamp_lost, collect_lost
+/// @return what this rank has sent and received
+/// @throws on all ranks or none: input_error if a position is not finite, or has left the box and may not (the message
+///         names ids and positions), or the ranks are not those of the decomposition; limit_error, or std::bad_alloc on
+///         the rank itself, where memory is short. Every particle is on its rank then; those that left are wrapped.
+/// Complexity: O(n) to see who leaves, all else by the leavers. 8 bytes to each rank that gets any, and their fields.
+/// Collective: yes; the same decomposition on all ranks. One reduction, another if a particle leaves; one message to
+///             each rank that gets any.
+template <class Store, decomposition Parts, transport Transport, class OnLost = refuse_lost>
+migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}) {
+    store.clear_ghosts();
+    detail::migrator<Store, Parts> work(store, parts, on.rank());
+    enum : std::size_t { sent, lost };
+    agreement<2> before(on.rank());
+    before.attempt([&] {
+        detail::check_ranks("migrate", parts.ranks(), on.ranks());
+        work.find(on_lost);
+        work.pack_leavers();
+    });
+    if (!before.has_failed_here()) {
+        before[sent] = work.sent();
+        before[lost] = work.lost().size();
+    }
+    mailbox came;
+    agreement<1> after(on.rank());
+    try {
+        came = on.exchange(before.has_failed_here() ? std::span<const parcel>() : work.parcels(), before.words());
+    } catch (const std::bad_alloc&) {  // of what came; the exchange is over
+        after.attempt([] { throw; });
+    }
+    before.settle("migrate");
+    if (before[sent] == 0 && before[lost] == 0) return {};
+
+    constexpr bool collects = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
+    [[maybe_unused]] std::size_t collected_before = 0;
+    if constexpr (collects) collected_before = on_lost.into.owned_count();
+    after.attempt([&] { work.unpack_arrivals(came); });
+    if constexpr (collects) after.attempt([&] { detail::append_rows(on_lost.into, store, work.lost()); });
+    after[0] = work.received();
+    on.reduce(after.words(), reduction::sum);
+    if (after.has_failed() || after[0] != before[sent]) {
+        work.drop_arrivals();
+        if constexpr (collects) detail::drop_rows(on_lost.into, collected_before);
+        after.settle("migrate");
+        detail::raise<limit_error>("migrate",
+                                   std::to_string(before[sent]) + " particles were sent, " + std::to_string(after[0]) +
+                                       " have come",
+                                   "the transport loses messages; nothing was done on any rank");
+    }
+    work.template remove_leavers<OnLost>();
+    return {work.sent(), work.received(), work.lost().size()};
+}
+
+}  // namespace tsubu

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// mpi_transport: the ranks of a communicator.
+#pragma once
+
+#include <tsubu/comm/detail/rank_checks.hpp>
+#include <tsubu/comm/detail/include_mpi.hpp>
+#include <tsubu/comm/detail/own_communicator.hpp>
+#include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/mpi_error.hpp>
+#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/types.hpp>
+
+#include <algorithm>  // std::copy, std::copy_n, std::stable_sort
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint64_t
+#include <limits>     // std::numeric_limits
+#include <memory>     // std::make_unique, std::unique_ptr
+#include <new>        // std::bad_alloc
+#include <numeric>    // std::accumulate
+#include <span>       // std::span
+#include <string>     // std::to_string
+#include <utility>    // std::exchange, std::move, std::swap
+#include <vector>     // std::vector
+
+namespace tsubu {
+namespace detail {
+
+/// Requests that start together, again and again; freed with the object.
+class persistent_requests {
+public:
+    persistent_requests() = default;
+    persistent_requests(persistent_requests&& other) noexcept
+        : requests_(std::exchange(other.requests_, {})), are_active_(other.are_active_) {}
+    persistent_requests& operator=(persistent_requests&& other) noexcept {
+        std::swap(requests_, other.requests_);
+        std::swap(are_active_, other.are_active_);
+        return *this;
+    }
+    ~persistent_requests() {
+        for (auto& one : requests_)
+            if (one != MPI_REQUEST_NULL) MPI_Request_free(&one);
+    }
+    [[nodiscard]] MPI_Request& add() { return requests_.emplace_back(MPI_REQUEST_NULL); }
+    void start() {
+        are_active_ = true;
+        if (!requests_.empty()) check_mpi(MPI_Startall(count(), requests_.data()), "MPI_Startall");
+    }
+    void wait() {
+        if (!requests_.empty()) check_mpi(MPI_Waitall(count(), requests_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+        are_active_ = false;
+    }
+    [[nodiscard]] bool are_active() const noexcept { return are_active_ && !requests_.empty(); }
+
+private:
+    [[nodiscard]] int count() const noexcept { return static_cast<int>(requests_.size()); }
+
+    std::vector<MPI_Request> requests_;
+    bool are_active_ = false;
+};
+
+}  // namespace detail
+
+/// The ranks of an MPI communicator.
+///
+///     tsubu::mpi_transport on(MPI_COMM_WORLD);   // or any other; it is duplicated, and freed with the object
+///     tsubu::migrate(particles, parts, on);
+///
+/// Its messages and errors never meet those of the program: they go over a communicator of its own, whose errors come
+/// as mpi_error. The program has MPI running before, and ends it after; mpi_environment does both.
+///
+/// Concept:      transport.
+/// Cost:         exchange: a message per parcel, and one reduction that tells when all have come, so that nobody needs
+///               to know who sends (NBX); channel: persistent requests, started and waited for, nothing else.
+/// Choose it when the program runs under mpirun.
+/// Collective:   construction and destruction.
+/// Threads:      one at a time.
+/// Source:       Hoefler, Siebert & Lumsdaine 2010, "Scalable communication protocols for dynamic sparse data
+///               exchange", doi:10.1145/1693453.1693476.
+class mpi_transport {
+public:
+    /// @param most_words  of one message; longer ones are sent in pieces. 2^27 words are 1 GiB, below the 2 GiB at which
+    ///                    implementations begin to fail.
+    /// @throws input_error if MPI is not running, or the communicator is null or an intercommunicator, or there may be no
+    ///         word in a message; mpi_error.
+    explicit mpi_transport(MPI_Comm over, std::size_t most_words = std::size_t{1} << 27)
+        : own_(over, "mpi_transport"), most_words_(most_words) {
+        if (most_words == 0 || most_words > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
+            detail::raise<input_error>("mpi_transport", std::to_string(most_words) + " words per message",
+                                       "give 1 to 2^31 - 1");
+    }
+
+    [[nodiscard]] rank_t rank() const noexcept { return static_cast<rank_t>(own_.rank()); }
+    [[nodiscard]] std::size_t ranks() const noexcept { return static_cast<std::size_t>(own_.size()); }
+    /// The duplicate: for messages of the program that are to stay apart from others.
+    [[nodiscard]] MPI_Comm communicator() const noexcept { return own_.get(); }
+
+    /// @throws input_error if there is no such rank, before any message; std::bad_alloc if there is no room for what
+    ///         came, when the exchange is over on all ranks; mpi_error.
+    [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
+        for (const auto& one : parcels) detail::check_parcel("mpi_transport::exchange", one, ranks());
+        // Who is through may begin the next exchange, while another still looks for messages of this one.
+        const int tag = exchange_tag + std::exchange(parity_, 1 - parity_);
+        incoming came;
+        std::vector<MPI_Request> sends;
+        for (const auto& one : parcels)
+            if (one.rank == rank())
+                came.from_here.add(one);
+            else
+                each_piece(one.words, [&](std::span<const std::uint64_t> piece) {
+                    check_mpi(MPI_Issend(piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
+                                         static_cast<int>(one.rank), tag, own_.get(),
+                                         &sends.emplace_back(MPI_REQUEST_NULL)),
+                              "MPI_Issend");
+                });
+
+        // A send that was synchronous is over when its receiver has begun to take it. When those of this rank are, it
+        // joins the reduction; when all ranks have joined, all messages have come.
+        std::vector<std::uint64_t> mine(sums.begin(), sums.end());
+        if (mine.empty()) mine.push_back(0);  // a reduction of nothing waits for nobody
+        std::vector<std::uint64_t> all(mine.size());
+        MPI_Request reduced = MPI_REQUEST_NULL;
+        for (int done = 0; done == 0;) {
+            receive_one(tag, came);
+            if (reduced != MPI_REQUEST_NULL) {
+                check_mpi(MPI_Test(&reduced, &done, MPI_STATUS_IGNORE), "MPI_Test");
+                continue;
+            }
+            int sent = 0;
+            check_mpi(MPI_Testall(static_cast<int>(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE),
+                      "MPI_Testall");
+            if (sent != 0)
+                check_mpi(MPI_Iallreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_UINT64_T, MPI_SUM,
+                                         own_.get(), &reduced),
+                          "MPI_Iallreduce");
+        }
+        std::copy_n(all.begin(), sums.size(), sums.begin());
+        if (came.has_no_room) throw std::bad_alloc();
+        return whole(came);
+    }
+    void reduce(std::span<std::uint64_t> numbers, reduction how) { reduce_as(numbers, MPI_UINT64_T, how); }
+    void reduce(std::span<double> numbers, reduction how) { reduce_as(numbers, MPI_DOUBLE, how); }
+    /// @throws limit_error on all ranks if they have 2^31 words or more in all.
+    [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
+        std::vector<std::uint64_t> counts(ranks());
+        const std::uint64_t mine = words.size();
+        check_mpi(MPI_Allgather(&mine, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, own_.get()), "MPI_Allgather");
+        const auto total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+        if (total > static_cast<std::uint64_t>((std::numeric_limits<int>::max)()))
+            detail::raise<limit_error>("mpi_transport::gather", std::to_string(total) + " words from all ranks",
+                                       "gather fewer than 2^31; exchange does not need all on one rank");
+        std::vector<int> lengths(ranks()), places(ranks());
+        for (std::size_t k = 0, at = 0; k < ranks(); at += counts[k++]) {
+            lengths[k] = static_cast<int>(counts[k]);
+            places[k] = static_cast<int>(at);
+        }
+        std::vector<std::uint64_t> all(static_cast<std::size_t>(total));
+        check_mpi(MPI_Allgatherv(words.data(), static_cast<int>(mine), MPI_UINT64_T, all.data(), lengths.data(),
+                                 places.data(), MPI_UINT64_T, own_.get()),
+                  "MPI_Allgatherv");
+        mailbox came;
+        for (std::size_t k = 0; k < ranks(); ++k)
+            came.add(parcel{static_cast<rank_t>(k),
+                            std::span(all).subspan(static_cast<std::size_t>(places[k]), static_cast<std::size_t>(lengths[k]))});
+        return came;
+    }
+    [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
+        std::uint64_t sum = 0;
+        check_mpi(MPI_Exscan(&n, &sum, 1, MPI_UINT64_T, MPI_SUM, own_.get()), "MPI_Exscan");
+        return rank() == 0 ? 0 : sum;  // what MPI leaves on rank 0 is undefined
+    }
+    [[nodiscard]] int next_tag() noexcept {
+        constexpr int tags = 32767 - first_channel_tag;  // every implementation has so many
+        return first_channel_tag + std::exchange(channels_, (channels_ + 1) % tags);
+    }
+
+    /// See transport.
+    class channel {
+    public:
+        channel(mpi_transport& on, int tag, const std::vector<lane>& out, const std::vector<lane>& in)
+            : out_words_(detail::words_of(out)),
+              in_words_(detail::words_of(in)),
+              out_(std::make_unique<std::uint64_t[]>(out_words_)),
+              in_(std::make_unique<std::uint64_t[]>(in_words_)) {
+            std::size_t at = 0;
+            for (const auto& one : in) {
+                on.each_piece(std::span(in_.get() + at, one.words), [&](std::span<std::uint64_t> piece) {
+                    check_mpi(MPI_Recv_init(piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
+                                            static_cast<int>(one.rank), tag, on.own_.get(), &requests_.add()),
+                              "MPI_Recv_init");
+                });
+                at += one.words;
+            }
+            at = 0;
+            for (const auto& one : out) {
+                on.each_piece(std::span(out_.get() + at, one.words), [&](std::span<std::uint64_t> piece) {
+                    check_mpi(MPI_Send_init(piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
+                                            static_cast<int>(one.rank), tag, on.own_.get(), &requests_.add()),
+                              "MPI_Send_init");
+                });
+                at += one.words;
+            }
+        }
+        channel(channel&&) noexcept = default;
+        ~channel() {
+            // Messages that were started and not waited for still read and write this memory: it stays, for good. To
+            // wait here could be for ever.
+            if (!requests_.are_active()) return;
+            static_cast<void>(out_.release());
+            static_cast<void>(in_.release());
+        }
+
+        [[nodiscard]] std::span<std::uint64_t> out() noexcept { return {out_.get(), out_words_}; }
+        [[nodiscard]] std::span<const std::uint64_t> in() const noexcept { return {in_.get(), in_words_}; }
+        void start() { requests_.start(); }
+        void finish() { requests_.wait(); }
+
+    private:
+        std::size_t out_words_;
+        std::size_t in_words_;
+        std::unique_ptr<std::uint64_t[]> out_;
+        std::unique_ptr<std::uint64_t[]> in_;
+        detail::persistent_requests requests_;  // last: freed before the memory that they use
+    };
+
+private:
+    static constexpr int exchange_tag = 0;
+    static constexpr int first_channel_tag = 2;
+
+    static void check_mpi(int code, const char* call) { detail::check_mpi(code, call); }
+
+    // Pieces of most_words, and a last one that is shorter, perhaps empty: that it is shorter tells that it is the last.
+    template <class Word, class Body>
+    void each_piece(std::span<Word> words, Body&& body) const {
+        for (; words.size() >= most_words_; words = words.subspan(most_words_)) body(words.first(most_words_));
+        body(words);
+    }
+
+    // What has come so far.
+    struct incoming {
+        struct piece {
+            rank_t from;
+            buffer<std::uint64_t> words;
+        };
+        mailbox from_here;
+        std::vector<piece> pieces;  // of one sender in their order
+        bool has_no_room = false;
+    };
+    void receive_one(int tag, incoming& came) const {
+        int found = 0;
+        MPI_Message message = MPI_MESSAGE_NULL;
+        MPI_Status status;
+        check_mpi(MPI_Improbe(MPI_ANY_SOURCE, tag, own_.get(), &found, &message, &status), "MPI_Improbe");
+        if (found == 0) return;
+        int count = 0;
+        check_mpi(MPI_Get_count(&status, MPI_UINT64_T, &count), "MPI_Get_count");
+        try {
+            came.pieces.push_back({static_cast<rank_t>(status.MPI_SOURCE),
+                                   buffer<std::uint64_t>(static_cast<std::size_t>(count), {})});
+        } catch (const std::bad_alloc&) {
+            // It is taken and thrown away, or its sender would wait for ever.
+            came.has_no_room = true;
+            static_cast<void>(MPI_Mrecv(nullptr, 0, MPI_UINT64_T, &message, MPI_STATUS_IGNORE));
+            return;
+        }
+        check_mpi(MPI_Mrecv(came.pieces.back().words.data(), count, MPI_UINT64_T, &message, MPI_STATUS_IGNORE),
+                  "MPI_Mrecv");
+    }
+    // Joins the pieces of each parcel.
+    [[nodiscard]] mailbox whole(incoming& came) const {
+        auto& pieces = came.pieces;
+        std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+        mailbox box = std::move(came.from_here);
+        for (std::size_t first = 0, last = 0; first < pieces.size(); first = last + 1) {
+            std::size_t words = 0;
+            for (last = first; pieces[last].words.size() == most_words_; ++last) words += most_words_;
+            words += pieces[last].words.size();
+            if (last == first) {
+                box.add(pieces[first].from, std::move(pieces[first].words));
+                continue;
+            }
+            auto* to = box.add(pieces[first].from, words).data();
+            for (auto k = first; k <= last; ++k) to = std::copy(pieces[k].words.begin(), pieces[k].words.end(), to);
+        }
+        box.sort();
+        return box;
+    }
+    template <class Number>
+    void reduce_as(std::span<Number> numbers, MPI_Datatype type, reduction how) const {
+        const auto operation = how == reduction::sum ? MPI_SUM : how == reduction::least ? MPI_MIN : MPI_MAX;
+        check_mpi(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), type, operation,
+                                own_.get()),
+                  "MPI_Allreduce");
+    }
+
+    detail::own_communicator own_;
+    std::size_t most_words_;
+    int parity_ = 0;
+    int channels_ = 0;
+};
+static_assert(transport<mpi_transport>);
+
+}  // namespace tsubu

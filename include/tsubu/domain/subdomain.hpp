@@ -66,12 +66,7 @@ public:
     /// @throws input_error if left is not as long as the points are many.
     std::size_t leavers(const points_type& x, std::span<index_t> left) const {
         detail::check_answers("subdomain::leavers", left.size(), x.size());
-        std::size_t found = 0;
-        detail::tell_outside(owned_, x, [&](std::size_t i, bool outside) {
-            left[found] = static_cast<index_t>(i);  // no branch: the next leaver writes over it
-            found += outside ? 1U : 0U;
-        });
-        return found;
+        return detail::list_outside(owned_, x, left.data());
     }
 
     /// At least d[k] away from both faces of each axis k, inside (B6 as decided). @throws input_error if a d is

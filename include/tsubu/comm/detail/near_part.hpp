@@ -21,7 +21,6 @@ class near_part {
     using box_type = typename Parts::box_type;
     using real_type = typename Parts::real_type;
     static constexpr auto D = Parts::dimension;
-    static constexpr bool is_round = !reaching_box<box_type>;
     using real_position_type = vec<D, real_type>;
 
 public:
@@ -29,19 +28,31 @@ public:
     /// @param shift  of these ghosts
     template <class Mine, class There>
     near_part(const Parts& parts, real_type cutoff, const Mine& here, const There& there, const image_shift<D>& shift)
-        : box_(&parts.whole()), shift_(shift) {
+        : box_(&parts.whole()), shift_(shift), is_round_(!reaching_box<box_type>) {
         for (std::size_t k = 0; k < D; ++k) {
             lo_[k] = there.lo()[k];
             hi_[k] = there.hi()[k];
         }
-        if constexpr (is_round)
-            reach_.fill(cutoff);
-        else
-            reach_ = box_->cell_reach(cutoff, here, there);
+        reach_ = reach_of(parts, cutoff, here, there);
         limit_ = cutoff * cutoff * (1 + 4 * std::numeric_limits<real_type>::epsilon());
     }
-    /// How far it reaches along each axis of the cell [D].
-    [[nodiscard]] const real_position_type& reach() const noexcept { return reach_; }
+    /// The same along one axis alone: what is beyond the subdomain along the others is near too.
+    void only_along(std::size_t axis) noexcept {
+        is_round_ = false;
+        for (std::size_t k = 0; k < D; ++k)
+            if (k != axis) reach_[k] = std::numeric_limits<real_type>::infinity();
+    }
+    /// How far a cutoff reaches along each axis of the cell [D].
+    template <class Mine, class There>
+    [[nodiscard]] static real_position_type reach_of(const Parts& parts, real_type cutoff, const Mine& here,
+                                                     const There& there) {
+        real_position_type reach{};
+        if constexpr (reaching_box<box_type>)
+            reach = parts.whole().cell_reach(cutoff, here, there);
+        else
+            reach.fill(cutoff);
+        return reach;
+    }
     /// @param at  a point of the box in coordinates of its cell
     [[nodiscard]] bool has(const typename Parts::position_type& at) const noexcept {
         if constexpr (cyclic_box<box_type>) {
@@ -66,7 +77,7 @@ private:
             square += gap * gap;
             is_within_reach = is_within_reach && gap <= reach_[k];
         }
-        return is_round ? square <= limit_ : is_within_reach;
+        return is_round_ ? square <= limit_ : is_within_reach;
     }
 
     const box_type* box_;
@@ -75,6 +86,7 @@ private:
     real_position_type hi_{};
     real_position_type reach_{};
     real_type limit_ = 0;
+    bool is_round_;
 };
 
 }  // namespace tsubu::detail

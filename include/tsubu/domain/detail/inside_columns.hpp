@@ -40,56 +40,63 @@ struct column_question {
 
 // ---- AVX2: all ones in each lane whose x is not in [first, last]; NaN never is.
 
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(const double* x, double first,
-                                                                        double last) noexcept {
-    const __m256d at = _mm256_loadu_pd(x);
+template <class Number>
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i vector_at(const Number* x) noexcept {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(x));
+}
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(__m256i x, double first, double last) noexcept {
+    const __m256d at = _mm256_castsi256_pd(x);
     return _mm256_castpd_si256(_mm256_or_pd(_mm256_cmp_pd(at, _mm256_set1_pd(first), _CMP_NGE_UQ),
                                             _mm256_cmp_pd(at, _mm256_set1_pd(last), _CMP_NLE_UQ)));
 }
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(const float* x, float first,
-                                                                        float last) noexcept {
-    const __m256 at = _mm256_loadu_ps(x);
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(__m256i x, float first, float last) noexcept {
+    const __m256 at = _mm256_castsi256_ps(x);
     return _mm256_castps_si256(_mm256_or_ps(_mm256_cmp_ps(at, _mm256_set1_ps(first), _CMP_NGE_UQ),
                                             _mm256_cmp_ps(at, _mm256_set1_ps(last), _CMP_NLE_UQ)));
 }
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(const std::int32_t* x, std::int32_t first,
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(__m256i x, std::int32_t first,
                                                                         std::int32_t last) noexcept {
-    const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(x));
-    return _mm256_or_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(first), at),
-                           _mm256_cmpgt_epi32(at, _mm256_set1_epi32(last)));
+    return _mm256_or_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(first), x),
+                           _mm256_cmpgt_epi32(x, _mm256_set1_epi32(last)));
 }
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(const std::int64_t* x, std::int64_t first,
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i outside_avx2(__m256i x, std::int64_t first,
                                                                         std::int64_t last) noexcept {
-    const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(x));
-    return _mm256_or_si256(_mm256_cmpgt_epi64(_mm256_set1_epi64x(first), at),
-                           _mm256_cmpgt_epi64(at, _mm256_set1_epi64x(last)));
+    return _mm256_or_si256(_mm256_cmpgt_epi64(_mm256_set1_epi64x(first), x),
+                           _mm256_cmpgt_epi64(x, _mm256_set1_epi64x(last)));
+}
+
+/// For as many points from i as a vector has numbers: all ones in the lane of each that is outside along any axis.
+template <std::size_t D, class Number, std::size_t... K>
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i vector_outside(const column_question<D, Number>& asked,
+                                                                          std::size_t i,
+                                                                          std::index_sequence<K...>) noexcept {
+    __m256i outside = _mm256_setzero_si256();
+    ((outside = _mm256_or_si256(outside, outside_avx2(vector_at(asked.start[K] + i), asked.first[K], asked.last[K]))),
+     ...);
+    return outside;
 }
 
 /// For 8 points from i: all ones in the lane of 32 bits of each that is outside along any axis.
-template <std::size_t D, class Number, std::size_t... K>
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256i eight_outside(const column_question<D, Number>& asked,
-                                                                         std::size_t i,
-                                                                         std::index_sequence<K...>) noexcept {
-    __m256i low = _mm256_setzero_si256();
-    ((low = _mm256_or_si256(low, outside_avx2(asked.start[K] + i, asked.first[K], asked.last[K]))), ...);
-    if constexpr (sizeof(Number) == 4) {
-        return low;
-    } else {
-        __m256i high = _mm256_setzero_si256();
-        ((high = _mm256_or_si256(high, outside_avx2(asked.start[K] + i + 4, asked.first[K], asked.last[K]))), ...);
-        return _mm256_packs_epi32(low, high);  // in the order 0 1 4 5 2 3 6 7
-    }
+template <class Number, class Question, class Axes>
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256i eight_outside(const Question& asked, std::size_t i,
+                                                                         Axes axes) noexcept {
+    if constexpr (sizeof(Number) == 4)
+        return vector_outside(asked, i, axes);
+    else  // in the order 0 1 4 5 2 3 6 7
+        return _mm256_packs_epi32(vector_outside(asked, i, axes), vector_outside(asked, i + 4, axes));
 }
 
 /// mask[i] = 1 if point i lies inside, else 0, for all i below the result, which is at most count.
-template <std::size_t D, class Number>
-[[gnu::target("avx2")]] std::size_t inside_avx2(column_question<D, Number> asked, std::size_t count,
+template <template <std::size_t, class> class Question, std::size_t D, class Number>
+[[gnu::target("avx2")]] std::size_t inside_avx2(Question<D, Number> asked, std::size_t count,
                                                 unsigned char* mask) noexcept {
     constexpr auto axes = std::make_index_sequence<D>{};
     std::size_t i = 0;
     for (; i + 32 <= count; i += 32) {
-        const __m256i low = _mm256_packs_epi32(eight_outside(asked, i, axes), eight_outside(asked, i + 8, axes));
-        const __m256i high = _mm256_packs_epi32(eight_outside(asked, i + 16, axes), eight_outside(asked, i + 24, axes));
+        const __m256i low =
+            _mm256_packs_epi32(eight_outside<Number>(asked, i, axes), eight_outside<Number>(asked, i + 8, axes));
+        const __m256i high =
+            _mm256_packs_epi32(eight_outside<Number>(asked, i + 16, axes), eight_outside<Number>(asked, i + 24, axes));
         // Packing works on the halves of a vector, so four points of one half follow four of the other.
         __m256i outside =
             _mm256_permutevar8x32_epi32(_mm256_packs_epi16(low, high), _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// One round of messages of a halo: what goes to whom, what comes from whom, and the ways it takes.
+#pragma once
+
+#include <tsubu/comm/detail/add_up.hpp>
+#include <tsubu/comm/detail/frame.hpp>
+#include <tsubu/comm/halo_pattern.hpp>
+#include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/domain/concepts.hpp>
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/pack.hpp>
+
+#include <bit>          // std::bit_cast
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int64_t, std::uint64_t
+#include <cstring>      // std::memcpy
+#include <deque>        // std::deque
+#include <numeric>      // std::iota
+#include <span>         // std::span
+#include <type_traits>  // std::remove_cv_t
+#include <utility>      // std::move
+#include <vector>       // std::vector
+
+namespace tsubu::detail {
+
+/// Words of one record of these fields, all of a fixed size.
+template <class Field>
+inline constexpr std::size_t words_of_field = words_for(sizeof(typename Field::value_type));
+template <class... Field>
+inline constexpr std::size_t record_words = (std::size_t{0} + ... + words_of_field<Field>);
+
+template <decomposition Parts, transport Transport>
+class halo_round {
+    using box_type = typename Parts::box_type;
+    static constexpr auto D = Parts::dimension;
+    using shift_type = image_shift<D>;
+
+    // Particles that go to, or came from, one rank as images of one shift.
+    struct segment {
+        rank_t rank;
+        shift_type shift;   // of the ghosts, from where their particles are at the sender
+        std::size_t begin;  // in chosen_; or the index of the first ghost
+        std::size_t count;
+    };
+    // For records of one size: the ways of messages, and what this rank sends itself.
+    struct ways {
+        std::size_t record;
+        typename Transport::channel forward;
+        typename Transport::channel reverse;
+        std::vector<std::uint64_t> here;
+    };
+
+public:
+    halo_round(const box_type& where, Transport& on)
+        : box_(&where), on_(&on), rank_(on.rank()), forward_tag_(on.next_tag()), reverse_tag_(on.next_tag()) {}
+
+    [[nodiscard]] std::size_t sent() const noexcept { return chosen_.size(); }
+    [[nodiscard]] std::size_t receivers() const noexcept { return ranks_in(outgoing_); }
+    [[nodiscard]] std::size_t senders() const noexcept { return ranks_in(incoming_); }
+
+    /// Chooses among particles `first` .. `last` - 1 what goes to whom.
+    template <class Store>
+    void choose(const Store& store, const std::vector<halo_asker<Parts>>& askers, std::size_t first, std::size_t last) {
+        std::vector<std::vector<index_t>> asked(askers.size());
+        const auto position = store.all()[frame<Store, box_type>::position];
+        for (auto i = first; i < last; ++i) {
+            const auto at = box_->to_cell(position[i]);
+            for (std::size_t k = 0; k < askers.size(); ++k)
+                if (askers[k].near.has(at)) asked[k].push_back(static_cast<index_t>(i));
+        }
+        for (std::size_t k = 0; k < askers.size(); ++k) {
+            if (asked[k].empty()) continue;
+            outgoing_.push_back({askers[k].rank, askers[k].shift, chosen_.size(), asked[k].size()});
+            chosen_.insert(chosen_.end(), asked[k].begin(), asked[k].end());
+        }
+    }
+    /// A parcel for each rank: how many segments, the shift and count of each, then the particles; then, if there were
+    /// rounds before, the shift that each had here already.
+    /// @param shifts  of the ghosts so far
+    template <class Store>
+    void pack_new(const Store& store, std::size_t owned, const std::vector<shift_type>& shifts,
+                  std::vector<std::uint64_t>& words, std::vector<parcel>& parcels) const {
+        constexpr fields_on_creation<typename Store::fields_type> set{};
+        std::vector<std::size_t> ends;
+        for (std::size_t first = 0, last = 0; first < outgoing_.size(); first = last) {
+            while (last < outgoing_.size() && outgoing_[last].rank == outgoing_[first].rank) ++last;
+            words.push_back(last - first);
+            for (auto k = first; k < last; ++k) {
+                put_shift(words, outgoing_[k].shift);
+                words.push_back(outgoing_[k].count);
+            }
+            const auto count = outgoing_[last - 1].begin + outgoing_[last - 1].count - outgoing_[first].begin;
+            const auto chosen = std::span<const index_t>(chosen_).subspan(outgoing_[first].begin, count);
+            const auto at = words.size();
+            words.resize(at + packed_words(store, set, chosen));
+            pack(store, set, chosen, std::span(words).subspan(at));
+            if (!shifts.empty())
+                for (const auto i : chosen) {
+                    const auto index = static_cast<std::size_t>(i);
+                    put_shift(words, index < owned ? shift_type{} : shifts[index - owned]);
+                }
+            parcels.push_back({outgoing_[first].rank, {}});
+            ends.push_back(words.size());
+        }
+        for (std::size_t k = 0, begin = 0; k < parcels.size(); begin = ends[k++])
+            parcels[k].words = std::span<const std::uint64_t>(words).subspan(begin, ends[k] - begin);
+    }
+    /// @param[in,out] shifts  of the ghosts, to which those of the new ones are added
+    template <class Store>
+    void unpack_new(Store& store, const mailbox& came, std::vector<shift_type>& shifts) {
+        constexpr std::size_t segment_words = D + 1;
+        first_ = store.size();
+        for (const auto& [from, words] : came) {
+            const auto segments = static_cast<std::size_t>(words[0]);
+            auto rest = words.subspan(1 + segments * segment_words);
+            const auto first_of_rank = shifts.size();
+            for (std::size_t k = 0; k < segments; ++k) {
+                const auto told = words.subspan(1 + k * segment_words, segment_words);
+                segment one{from, get_shift(told), 0, static_cast<std::size_t>(told[D])};
+                one.begin = store.add_ghosts(one.count);
+                rest = rest.subspan(take(store, one, rest, fields_on_creation<typename Store::fields_type>{}));
+                incoming_.push_back(one);
+                shifts.insert(shifts.end(), one.count, one.shift);
+            }
+            for (auto k = first_of_rank; !rest.empty(); ++k, rest = rest.subspan(D))  // the shifts of before
+                for (std::size_t d = 0; d < D; ++d) shifts[k][d] += std::bit_cast<std::int64_t>(rest[d]);
+        }
+        ghost_indices_.resize(store.size() - first_);
+        std::iota(ghost_indices_.begin(), ghost_indices_.end(), static_cast<index_t>(first_));
+    }
+
+    template <class Store, auto... F>
+    void start_forward(const Store& store, fields<F...> set) {
+        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
+        put(store, set, chosen_, 0, outgoing_, way.forward.out(), way.here);
+        way.forward.start();
+    }
+    template <class Store, auto... F>
+    void finish_forward(Store& store, fields<F...> set) {
+        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
+        way.forward.finish();
+        auto from_others = way.forward.in();
+        std::span<const std::uint64_t> from_here(way.here);
+        for (const auto& one : incoming_) {
+            auto& words = one.rank == rank_ ? from_here : from_others;
+            words = words.subspan(take(store, one, words, set));
+        }
+    }
+    template <class Store, auto... F>
+    void start_reverse(const Store& store, fields<F...> set) {
+        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
+        put(store, set, ghost_indices_, first_, incoming_, way.reverse.out(), way.here);
+        way.reverse.start();
+    }
+    template <class Store, auto... F>
+    void finish_reverse(Store& store, fields<F...>) {
+        constexpr auto record = record_words<std::remove_cv_t<decltype(F)>...>;
+        auto& way = way_for(record);
+        way.reverse.finish();
+        const std::uint64_t* from_others = way.reverse.in().data();
+        const std::uint64_t* from_here = way.here.data();
+        for (const auto& one : outgoing_) {
+            auto& words = one.rank == rank_ ? from_here : from_others;
+            std::size_t at = 0;
+            ((add_to_owners<std::remove_cv_t<decltype(F)>>(store, one, words + at, record),
+              at += words_of_field<std::remove_cv_t<decltype(F)>>),
+             ...);
+            words += one.count * record;
+        }
+    }
+
+private:
+    static void put_shift(std::vector<std::uint64_t>& words, const shift_type& shift) {
+        for (const auto periods : shift) words.push_back(std::bit_cast<std::uint64_t>(periods));
+    }
+    [[nodiscard]] static shift_type get_shift(std::span<const std::uint64_t> words) noexcept {
+        shift_type shift{};
+        for (std::size_t d = 0; d < D; ++d) shift[d] = std::bit_cast<std::int64_t>(words[d]);
+        return shift;
+    }
+    [[nodiscard]] std::size_t ranks_in(const std::vector<segment>& segments) const noexcept {
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < segments.size(); ++k)
+            count += segments[k].rank != rank_ && (k == 0 || segments[k - 1].rank != segments[k].rank) ? 1U : 0U;
+        return count;
+    }
+    [[nodiscard]] std::vector<lane> lanes_of(const std::vector<segment>& segments, std::size_t record) const {
+        std::vector<lane> lanes;
+        for (const auto& one : segments) {
+            if (one.rank == rank_) continue;
+            if (lanes.empty() || lanes.back().rank != one.rank) lanes.push_back({one.rank, 0});
+            lanes.back().words += one.count * record;
+        }
+        return lanes;
+    }
+    [[nodiscard]] ways& way_for(std::size_t record) {
+        for (auto& one : ways_)
+            if (one.record == record) return one;
+        const auto out = lanes_of(outgoing_, record);
+        const auto in = lanes_of(incoming_, record);
+        std::size_t here = 0;
+        for (const auto& one : outgoing_) here += one.rank == rank_ ? one.count * record : 0;
+        return ways_.emplace_back(ways{record, typename Transport::channel(*on_, forward_tag_, out, in),
+                                       typename Transport::channel(*on_, reverse_tag_, in, out),
+                                       std::vector<std::uint64_t>(here)});
+    }
+    /// @param indices  of the particles of the segments, which begin in them at `begin - first`
+    template <class Store, auto... F>
+    void put(const Store& store, fields<F...> set, std::span<const index_t> indices, std::size_t first,
+             const std::vector<segment>& segments, std::span<std::uint64_t> to_others,
+             std::vector<std::uint64_t>& here) const {
+        std::span<std::uint64_t> to_here(here);
+        for (const auto& one : segments) {
+            auto& to = one.rank == rank_ ? to_here : to_others;
+            to = to.subspan(pack(store, set, indices.subspan(one.begin - first, one.count), to));
+        }
+    }
+    template <class Store, auto... F>
+    std::size_t take(Store& store, const segment& one, std::span<const std::uint64_t> words, fields<F...> set) const {
+        const auto used = unpack(store, set, one.begin, one.count, words);
+        (move_into_image<std::remove_cv_t<decltype(F)>>(store, one), ...);
+        return used;
+    }
+    template <class Field, class Store>
+    void move_into_image(Store& store, const segment& one) const {
+        if constexpr (changes_in_image<Field, box_type>) {
+            if (one.shift == shift_type{}) return;
+            const auto column = store[Field{}];
+            for (auto i = one.begin; i < one.begin + one.count; ++i)
+                column[i] = value_in_image<Field>(*box_, column[i], one.shift);
+        }
+    }
+    template <class Field, class Store>
+    void add_to_owners(Store& store, const segment& one, const std::uint64_t* words, std::size_t record) const {
+        constexpr auto how = Field::traits.reverse;
+        static_assert(how != ghosts_add::nothing, "this field says that ghosts add nothing to it");
+        static_assert(Field::traits.image != under_image::translates, "positions are not added up");
+        const auto column = store[Field{}];
+        const auto back = opposite(one.shift);
+        typename Field::value_type value;
+        for (std::size_t k = 0; k < one.count; ++k) {
+            std::memcpy(static_cast<void*>(&value), words + k * record, sizeof(value));
+            if constexpr (changes_in_image<Field, box_type>) value = value_in_image<Field>(*box_, value, back);
+            add_up<how>(column[static_cast<std::size_t>(chosen_[one.begin + k])], value);
+        }
+    }
+
+    const box_type* box_;
+    Transport* on_;
+    rank_t rank_;
+    int forward_tag_;
+    int reverse_tag_;
+    std::size_t first_ = 0;               // of the ghosts of this round
+    std::vector<index_t> chosen_;         // what goes out, segment after segment
+    std::vector<index_t> ghost_indices_;  // first_, first_ + 1, ...
+    std::vector<segment> outgoing_;
+    std::vector<segment> incoming_;
+    std::deque<ways> ways_;
+};
+
+}  // namespace tsubu::detail

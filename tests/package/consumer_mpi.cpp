@@ -15,7 +15,8 @@ int main(int argc, char** argv) {
     bool good = false;
     {
         const std::vector<std::int64_t> ids{4, 9, 4};
-        good = tsubu::duplicate_ids(MPI_COMM_WORLD, std::span(ids)).total == 1;
+        tsubu::mpi_transport on(MPI_COMM_WORLD);
+        good = tsubu::duplicate_ids(on, std::span(ids)).total == 1;
     }
     MPI_Finalize();
     std::puts(good ? "found" : "wrong");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/detail/agreed_exchange.hpp>
 #include <tsubu/comm/detail/halo_round.hpp>
 #include <tsubu/comm/detail/rank_checks.hpp>
 #include <tsubu/comm/halo_pattern.hpp>
@@ -11,6 +12,7 @@
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/expects.hpp>
+#include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/store/field.hpp>
@@ -18,10 +20,11 @@
 
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
+#include <limits>   // std::numeric_limits
 #include <memory>   // std::unique_ptr
-#include <new>      // std::bad_alloc
 #include <span>     // std::span
 #include <string>   // std::to_string
+#include <utility>  // std::move
 #include <vector>   // std::vector
 
 namespace tsubu {
@@ -149,33 +152,24 @@ private:
     }
     // One step of the pattern. Collective. The guarantee is that of make_halo.
     template <class Store>
-    void make_step(Store& store, Transport& on, const halo_step<Parts>& step, const std::vector<std::size_t>& begins) {
+    void make_step(Store& store, const Parts& parts, Transport& on, const halo_step<Parts>& step, const std::vector<std::size_t>& begins) {
         round_type next(*box_, on);
         std::vector<std::uint64_t> words;
-        std::vector<parcel> parcels;
-        agreement<> before(on.rank());
-        before.attempt([&] {
-            next.choose(store, step.askers, begins[step.from], begins[step.to]);
-            next.pack_new(store, owned_, shifts_, words, parcels);
-        });
-        if (before.has_failed_here()) parcels.clear();
-        agreement<> after(on.rank());
-        mailbox came;
         try {
-            came = on.exchange(parcels, before.words());
-        } catch (const std::bad_alloc&) {  // of what came; the exchange is over
-            after.attempt([] { throw; });
+            detail::agreed_exchange(
+                on, "make_halo",
+                [&](std::vector<parcel>& parcels) {
+                    next.choose(store, parts, step.askers, begins[step.from], begins[step.to]);
+                    next.pack_new(store, owned_, shifts_, words, parcels);
+                },
+                [&](const mailbox& came) {
+                    next.unpack_new(store, came, shifts_);
+                    rounds_.push_back(std::move(next));
+                });
+        } catch (...) {
+            store.clear_ghosts();
+            throw;
         }
-        if (!before.has_failed()) {
-            after.attempt([&] {
-                next.unpack_new(store, came, shifts_);
-                rounds_.push_back(std::move(next));
-            });
-            on.reduce(after.words(), reduction::sum);
-        }
-        if (before.has_failed() || after.has_failed()) store.clear_ghosts();
-        before.settle("make_halo");
-        after.settle("make_halo");
     }
 
     std::unique_ptr<const box_type> box_;  // where the rounds find it, wherever the halo is moved
@@ -215,13 +209,16 @@ template <class Store, decomposition Parts, transport Transport, class Pattern =
     std::vector<halo_step<Parts>> steps;
     before.attempt([&] {
         detail::check_ranks("make_halo", parts.ranks(), on.ranks());
+        if (!(cutoff >= 0) || !(cutoff <= (std::numeric_limits<typename Parts::real_type>::max)()))
+            detail::raise<input_error>("make_halo", "the cutoff " + detail::shown(cutoff),
+                                       "give a finite length of at least 0");
         steps = pattern.plan(parts, on.rank(), cutoff);
     });
     on.reduce(before.words(), reduction::sum);
     before.settle("make_halo");
     std::vector<std::size_t> begins{0, made.owned_};  // of the groups
     for (const auto& step : steps) {
-        made.make_step(store, on, step, begins);
+        made.make_step(store, parts, on, step, begins);
         begins.push_back(store.size());
     }
     return made;

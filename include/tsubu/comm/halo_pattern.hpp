@@ -18,6 +18,7 @@
 #include <tsubu/domain/lattice.hpp>
 
 #include <algorithm>  // std::max
+#include <array>      // std::array
 #include <cmath>      // std::abs
 #include <concepts>   // std::same_as
 #include <cstddef>    // std::size_t
@@ -113,7 +114,6 @@ struct staged_pattern {
         const auto& bricks = detail::bricks_of(parts);
         const auto place = bricks.place(rank);
         const auto here = parts.subdomain(rank);
-        detail::check_cutoff("staged_pattern", cutoff);
         std::vector<halo_step<Parts>> steps;
         for (std::size_t axis = 0; axis < Parts::dimension; ++axis) {
             const auto groups = steps.size() + 1;
@@ -148,13 +148,14 @@ private:
     // How many bricks far the cutoff reaches from some brick, at most.
     template <class Bricks, class Real>
     [[nodiscard]] static std::size_t hops_along(const Bricks& bricks, std::size_t axis, Real reach) {
-        const auto& cuts = bricks.along(axis);
         const auto& along = bricks.whole().along(axis);
-        const auto count = cuts.parts();
+        const auto count = bricks.along(axis).parts();
         std::vector<Real> widths(count);
         for (std::size_t k = 0; k < count; ++k) {
-            const auto [from, to] = detail::real_stretch(along, cuts.owned(k));
-            widths[k] = to - from;
+            std::array<std::size_t, Bricks::dimension> place{};
+            place[axis] = k;
+            const auto part = bricks.subdomain(bricks.rank_at(place));
+            widths[k] = part.hi()[axis] - part.lo()[axis];
         }
         const bool is_periodic = along.is_periodic();
         // However widths were rounded: a hop too many brings nothing, one too few loses ghosts.

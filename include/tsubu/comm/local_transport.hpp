@@ -13,7 +13,6 @@
 #include <condition_variable>  // std::condition_variable
 #include <cstddef>             // std::size_t
 #include <cstdint>             // std::uint64_t
-#include <deque>               // std::deque
 #include <exception>           // std::exception_ptr
 #include <map>                 // std::map
 #include <mutex>               // std::mutex
@@ -21,6 +20,7 @@
 #include <string>              // std::to_string
 #include <thread>              // std::thread
 #include <tuple>               // std::tuple
+#include <type_traits>         // std::is_same_v
 #include <utility>             // std::move
 #include <vector>              // std::vector
 
@@ -56,17 +56,22 @@ public:
     }
     void put(rank_t from, rank_t to, int tag, std::vector<std::uint64_t> words) {
         const std::lock_guard lock(mutex_);
-        ways_[{from, to, tag}].push_back(std::move(words));
+        auto& on = ways_[{from, to, tag}];
+        on.messages.emplace(on.sent++, std::move(words));
         changed_.notify_all();
     }
-    [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag) {
+    /// Which message on this way the next call asks for: the first that are put are for the first that asked, in
+    /// whatever order they take them.
+    [[nodiscard]] std::uint64_t ask(rank_t from, rank_t to, int tag) {
+        const std::lock_guard lock(mutex_);
+        return ways_[{from, to, tag}].asked++;
+    }
+    [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag, std::uint64_t which) {
         std::unique_lock lock(mutex_);
-        auto& way = ways_[{from, to, tag}];
-        changed_.wait(lock, [&] { return !way.empty() || is_broken_; });
+        auto& messages = ways_[{from, to, tag}].messages;
+        changed_.wait(lock, [&] { return messages.count(which) != 0 || is_broken_; });
         refuse_if_broken();
-        auto words = std::move(way.front());
-        way.pop_front();
-        return words;
+        return std::move(messages.extract(which).mapped());
     }
     /// A rank has ended: nobody is to wait for it.
     void leave() noexcept {
@@ -76,6 +81,12 @@ public:
     }
 
 private:
+    struct way {
+        std::map<std::uint64_t, std::vector<std::uint64_t>> messages;
+        std::uint64_t sent = 0;
+        std::uint64_t asked = 0;
+    };
+
     void refuse_if_broken() const {
         if (is_broken_)
             throw lost_rank_error("tsubu::local_transport: another rank has ended by an exception; see that one");
@@ -84,7 +95,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<post> posts_;
-    std::map<std::tuple<rank_t, rank_t, int>, std::deque<std::vector<std::uint64_t>>> ways_;
+    std::map<std::tuple<rank_t, rank_t, int>, way> ways_;
     std::size_t here_ = 0;
     std::uint64_t meetings_ = 0;
     bool is_broken_ = false;
@@ -161,11 +172,14 @@ public:
                 place_->put(rank_, to, tag_, {at, end});
                 at = end;
             }
+            asked_.clear();
+            for (const auto& one : in_lanes_) asked_.push_back(place_->ask(one.rank, rank_, tag_));
         }
         void finish() {
             auto at = in_.begin();
-            for (const auto& [from, words] : in_lanes_) {
-                const auto came = place_->take(from, rank_, tag_);
+            for (std::size_t k = 0; k < asked_.size(); ++k) {
+                const auto [from, words] = in_lanes_[k];
+                const auto came = place_->take(from, rank_, tag_, asked_[k]);
                 if (came.size() != words)
                     detail::raise<input_error>("local_transport::channel",
                                                "rank " + std::to_string(from) + " sent " + std::to_string(came.size()) +
@@ -183,6 +197,7 @@ public:
         std::vector<lane> in_lanes_;
         std::vector<std::uint64_t> out_;
         std::vector<std::uint64_t> in_;
+        std::vector<std::uint64_t> asked_;  // of each lane, by the last start
     };
 
 private:

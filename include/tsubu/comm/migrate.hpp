@@ -14,12 +14,14 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/lattice.hpp>
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
-#include <algorithm>  // std::sort
+#include <algorithm>  // std::max, std::min, std::sort
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
+#include <limits>     // std::numeric_limits
 #include <new>        // std::bad_alloc
 #include <span>       // std::span
 #include <string>     // std::string
@@ -172,7 +174,21 @@ private:
             const auto inside = box.cell().along(k).inside();
             at[k] = at[k] < inside.first ? inside.first : inside.last < at[k] ? inside.last : at[k];
         }
-        return box.from_cell(at);
+        auto nearest = box.from_cell(at);
+        // from_cell may round to beyond the face again: inwards by a step of the scalar, or two, or four.
+        if constexpr (!is_lattice<typename Parts::scalar_type>) {
+            constexpr auto epsilon = std::numeric_limits<typename Parts::scalar_type>::epsilon();
+            for (auto step = epsilon; !box.contains(nearest) && step < 1; step *= 2) {
+                auto inner = at;
+                for (std::size_t k = 0; k < Parts::dimension; ++k) {
+                    const auto& along = box.cell().along(k);
+                    const auto margin = step * along.length();
+                    inner[k] = (std::min)((std::max)(at[k], along.lo() + margin), along.hi() - margin);
+                }
+                nearest = box.from_cell(inner);
+            }
+        }
+        return nearest;
     }
     [[nodiscard]] std::string named(index_t i) const {
         if constexpr (Store::template has<decltype(tsubu::id)>)
@@ -222,8 +238,8 @@ private:
 ///     tsubu::migrate(grains, bricks, on, tsubu::collect_lost(outside));
 ///
 /// A position beyond a periodic face is wrapped; a field `image` counts the periods, and fields that turn with images
-/// are turned. Those that stay are not touched, those that come are the last ones, by rank of their sender. What goes is all fields
-/// of the store.
+/// are turned. Those that stay are not touched; those that come are added by rank of their sender, and the last ones
+/// take the places of those that have gone. What goes is all fields of the store.
 ///
 /// @param on_lost  what becomes of particles beyond faces that are not periodic: refuse_lost, clamp_lost, collect_lost
 /// @return what this rank has sent and received

@@ -141,9 +141,11 @@ public:
     }
     /// x moved by so many periods of each axis: where the ghost with this shift is, in real units.
     [[nodiscard]] real_position_type image(const position_type& x, const image_shift<D>& shift) const noexcept {
-        real_position_type y{};
-        for (std::size_t k = 0; k < D; ++k) y[k] = axes_[k].unwrap({x[k], shift[k]});
-        return y;
+        // Not a loop, whose results would go through memory one by one and come back two at a time, which stalls.
+        return [&]<std::size_t... K>(std::index_sequence<K...>) {
+            return real_position_type{axes_[K].unwrap({x[K], shift[K]})...};
+        }
+        (std::make_index_sequence<D>{});
     }
     /// The shortest displacement from b to an image of a [m]; from a to b it is the opposite, always.
     [[nodiscard]] real_position_type minimum_image(const position_type& a, const position_type& b) const noexcept {

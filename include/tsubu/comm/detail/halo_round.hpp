@@ -9,15 +9,20 @@
 #include <tsubu/comm/mailbox.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/points.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/pack.hpp>
 
+#include <algorithm>    // std::max
+#include <array>        // std::array
 #include <bit>          // std::bit_cast
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint64_t
 #include <cstring>      // std::memcpy
-#include <deque>        // std::deque
+#include <limits>       // std::numeric_limits
+#include <memory>       // std::make_unique, std::unique_ptr
 #include <numeric>      // std::iota
 #include <span>         // std::span
 #include <type_traits>  // std::remove_cv_t
@@ -35,6 +40,7 @@ inline constexpr std::size_t record_words = (std::size_t{0} + ... + words_of_fie
 template <decomposition Parts, transport Transport>
 class halo_round {
     using box_type = typename Parts::box_type;
+    using real_type = typename Parts::real_type;
     static constexpr auto D = Parts::dimension;
     using shift_type = image_shift<D>;
 
@@ -63,18 +69,22 @@ public:
 
     /// Chooses among particles `first` .. `last` - 1 what goes to whom.
     template <class Store>
-    void choose(const Store& store, const std::vector<halo_asker<Parts>>& askers, std::size_t first, std::size_t last) {
-        std::vector<std::vector<index_t>> asked(askers.size());
+    void choose(const Store& store, const Parts& parts, const std::vector<halo_asker<Parts>>& askers,
+                std::size_t first, std::size_t last) {
         const auto position = store.all()[frame<Store, box_type>::position];
-        for (auto i = first; i < last; ++i) {
-            const auto at = box_->to_cell(position[i]);
-            for (std::size_t k = 0; k < askers.size(); ++k)
-                if (askers[k].near.has(at)) asked[k].push_back(static_cast<index_t>(i));
-        }
-        for (std::size_t k = 0; k < askers.size(); ++k) {
-            if (asked[k].empty()) continue;
-            outgoing_.push_back({askers[k].rank, askers[k].shift, chosen_.size(), asked[k].size()});
-            chosen_.insert(chosen_.end(), asked[k].begin(), asked[k].end());
+        const auto outer = outer_ones(position, parts, askers, first, last);
+        const points<D, const real_type> at(outer.columns());
+        std::vector<unsigned char> mask(outer.indices.size());
+        for (const auto& asker : askers) {
+            const auto begin = chosen_.size();
+            asker.near.surroundings().owns(at, mask);
+            for (std::size_t k = 0; k < mask.size(); ++k) {
+                if (mask[k] == 0) continue;
+                const auto i = outer.indices[k];
+                if (asker.near.has(box_->to_cell(position[static_cast<std::size_t>(i)]))) chosen_.push_back(i);
+            }
+            if (chosen_.size() != begin)
+                outgoing_.push_back({asker.rank, asker.shift, begin, chosen_.size() - begin});
         }
     }
     /// A parcel for each rank: how many segments, the shift and count of each, then the particles; then, if there were
@@ -173,6 +183,45 @@ public:
     }
 
 private:
+    // Particles that any asker may want, and where they are in the cell, a column per axis.
+    struct candidates {
+        std::vector<index_t> indices;
+        std::array<std::vector<real_type>, D> x;
+        [[nodiscard]] typename points<D, const real_type>::columns columns() const noexcept {
+            typename points<D, const real_type>::columns all{};
+            for (std::size_t k = 0; k < D; ++k) all[k] = x[k];
+            return all;
+        }
+    };
+    // All but those that are farther from each face of this subdomain than any asker reaches: askers lie outside.
+    template <class Position>
+    [[nodiscard]] candidates outer_ones(const Position& position, const Parts& parts,
+                                        const std::vector<halo_asker<Parts>>& askers, std::size_t first,
+                                        std::size_t last) const {
+        const auto here = parts.subdomain(rank_);
+        vec<D, real_type> lo{};
+        vec<D, real_type> hi{};
+        for (std::size_t k = 0; k < D; ++k) {
+            real_type reach = 0;
+            for (const auto& asker : askers) reach = (std::max)(reach, asker.near.reach()[k]);
+            lo[k] = here.lo()[k] + reach * (1 + 8 * std::numeric_limits<real_type>::epsilon());
+            hi[k] = here.hi()[k] - reach * (1 + 8 * std::numeric_limits<real_type>::epsilon());
+        }
+        candidates found;
+        for (auto i = first; i < last; ++i) {
+            const auto in_cell = box_->to_cell(position[i]);
+            vec<D, real_type> at{};
+            bool is_inner = true;
+            for (std::size_t k = 0; k < D; ++k) {
+                at[k] = box_->cell().along(k).to_real(in_cell[k]);
+                is_inner = is_inner && at[k] > lo[k] && at[k] < hi[k];
+            }
+            if (is_inner) continue;
+            found.indices.push_back(static_cast<index_t>(i));
+            for (std::size_t k = 0; k < D; ++k) found.x[k].push_back(at[k]);
+        }
+        return found;
+    }
     static void put_shift(std::vector<std::uint64_t>& words, const shift_type& shift) {
         for (const auto periods : shift) words.push_back(std::bit_cast<std::uint64_t>(periods));
     }
@@ -197,15 +246,15 @@ private:
         return lanes;
     }
     [[nodiscard]] ways& way_for(std::size_t record) {
-        for (auto& one : ways_)
-            if (one.record == record) return one;
+        for (const auto& one : ways_)
+            if (one->record == record) return *one;
         const auto out = lanes_of(outgoing_, record);
         const auto in = lanes_of(incoming_, record);
         std::size_t here = 0;
         for (const auto& one : outgoing_) here += one.rank == rank_ ? one.count * record : 0;
-        return ways_.emplace_back(ways{record, typename Transport::channel(*on_, forward_tag_, out, in),
-                                       typename Transport::channel(*on_, reverse_tag_, in, out),
-                                       std::vector<std::uint64_t>(here)});
+        return *ways_.emplace_back(std::make_unique<ways>(ways{
+            record, typename Transport::channel(*on_, forward_tag_, out, in),
+            typename Transport::channel(*on_, reverse_tag_, in, out), std::vector<std::uint64_t>(here)}));
     }
     /// @param indices  of the particles of the segments, which begin in them at `begin - first`
     template <class Store, auto... F>
@@ -258,7 +307,7 @@ private:
     std::vector<index_t> ghost_indices_;  // first_, first_ + 1, ...
     std::vector<segment> outgoing_;
     std::vector<segment> incoming_;
-    std::deque<ways> ways_;
+    std::vector<std::unique_ptr<ways>> ways_;  // found where they are while more come
 };
 
 }  // namespace tsubu::detail

@@ -6,7 +6,11 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/concepts.hpp>
+#include <tsubu/domain/interval.hpp>
+#include <tsubu/domain/subdomain.hpp>
 
+#include <array>    // std::array
+#include <cmath>    // std::abs
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::int64_t
 #include <limits>   // std::numeric_limits
@@ -36,13 +40,15 @@ public:
         reach_ = reach_of(parts, cutoff, here, there);
         limit_ = cutoff * cutoff * (1 + 4 * std::numeric_limits<real_type>::epsilon());
     }
+    /// How far it reaches along each axis of the cell [D].
+    [[nodiscard]] const real_position_type& reach() const noexcept { return reach_; }
     /// The same along one axis alone: what is beyond the subdomain along the others is near too.
     void only_along(std::size_t axis) noexcept {
         is_round_ = false;
         for (std::size_t k = 0; k < D; ++k)
             if (k != axis) reach_[k] = std::numeric_limits<real_type>::infinity();
     }
-    /// How far a cutoff reaches along each axis of the cell [D].
+    /// The reach of a cutoff between two subdomains [D].
     template <class Mine, class There>
     [[nodiscard]] static real_position_type reach_of(const Parts& parts, real_type cutoff, const Mine& here,
                                                      const There& there) {
@@ -52,6 +58,19 @@ public:
         else
             reach.fill(cutoff);
         return reach;
+    }
+    /// Holds all points of the cell that has() accepts, and a few more: what is to be asked first, of many at a time.
+    [[nodiscard]] subdomain<D, real_type> surroundings() const noexcept {
+        constexpr auto everything = std::numeric_limits<real_type>::infinity();
+        std::array<interval<real_type>, D> box{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto moved = static_cast<real_type>(shift_[k]) * box_->cell().along(k).real().length();
+            const auto slack = 32 * std::numeric_limits<real_type>::epsilon() *
+                               (std::abs(lo_[k]) + std::abs(hi_[k]) + std::abs(moved));
+            box[k] = {lo_[k] - reach_[k] - moved - slack, hi_[k] + reach_[k] - moved + slack};
+        }
+        if constexpr (cyclic_box<box_type>) box[0] = {-everything, everything};
+        return {box, box, lo_, hi_};
     }
     /// @param at  a point of the box in coordinates of its cell
     [[nodiscard]] bool has(const typename Parts::position_type& at) const noexcept {

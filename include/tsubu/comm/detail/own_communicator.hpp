@@ -7,9 +7,6 @@
 #include <tsubu/comm/mpi_error.hpp>
 #include <tsubu/core/error.hpp>
 
-#include <exception>  // std::exception_ptr
-#include <string>     // std::to_string
-
 namespace tsubu::detail {
 
 /// A duplicate of a communicator that returns errors instead of aborting, freed with the object.
@@ -41,37 +38,6 @@ public:
     [[nodiscard]] MPI_Comm get() const noexcept { return own_; }
     [[nodiscard]] int size() const noexcept { return size_; }
     [[nodiscard]] int rank() const noexcept { return rank_; }
-
-    /// Runs `work`, which is local, on every rank; if it throws on one, all throw: that rank its own exception, the
-    /// others a limit_error or an input_error that names the rank.
-    /// Collective: yes; one allreduce of 8 bytes.
-    template <class Work>
-    void all_or_none(const char* where, Work&& work) const {
-        enum : int { good, exhausted, refused };
-        struct {
-            int verdict = good;
-            int rank = 0;
-        } mine, worst;
-        mine.rank = rank_;
-        std::exception_ptr own;
-        try {
-            work();
-        } catch (const input_error&) {
-            mine.verdict = refused;
-            own = std::current_exception();
-        } catch (...) {  // limit_error, std::bad_alloc, std::length_error
-            mine.verdict = exhausted;
-            own = std::current_exception();
-        }
-        check_mpi(MPI_Allreduce(&mine, &worst, 1, MPI_2INT, MPI_MAXLOC, own_), "MPI_Allreduce");
-        if (own) std::rethrow_exception(own);
-        if (worst.verdict == refused)
-            raise<input_error>(where, "rank " + std::to_string(worst.rank) + " refused its input",
-                               "see the message of that rank");
-        if (worst.verdict == exhausted)
-            raise<limit_error>(where, "rank " + std::to_string(worst.rank) + " exceeded a limit or its memory",
-                               "see the message of that rank");
-    }
 
 private:
     MPI_Comm own_ = MPI_COMM_NULL;

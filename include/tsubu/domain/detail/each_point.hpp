@@ -129,13 +129,13 @@ inline std::size_t list_zeros_loop(const unsigned char* mask, std::size_t count,
             found += mask[j] == 0 ? 1U : 0U;
         }
     };
-    while (j + 8 <= count) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, mask + j, sizeof eight);
-        if (eight == eight_ones)
-            j += 8;
+    while (j + 32 <= count) {
+        std::uint64_t words[4];
+        std::memcpy(words, mask + j, sizeof words);
+        if ((words[0] & words[1] & words[2] & words[3]) == eight_ones)
+            j += sizeof words;
         else
-            list_until(j + 8);
+            list_until(j + sizeof words);
     }
     list_until(count);
     return found;

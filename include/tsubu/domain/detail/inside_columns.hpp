@@ -80,10 +80,13 @@ template <std::size_t D, class Number, std::size_t... K>
 template <class Number, class Question, class Axes>
 [[gnu::target("avx2"), gnu::always_inline]] inline __m256i eight_outside(const Question& asked, std::size_t i,
                                                                          Axes axes) noexcept {
-    if constexpr (sizeof(Number) == 4)
-        return vector_outside(asked, i, axes);
-    else  // in the order 0 1 4 5 2 3 6 7
-        return _mm256_packs_epi32(vector_outside(asked, i, axes), vector_outside(asked, i + 4, axes));
+    const __m256i low = vector_outside(asked, i, axes);
+    if constexpr (sizeof(Number) == 4) {
+        return low;
+    } else {
+        const __m256i high = vector_outside(asked, i + 4, axes);
+        return _mm256_packs_epi32(low, high);  // in the order 0 1 4 5 2 3 6 7
+    }
 }
 
 /// mask[i] = 1 if point i lies inside, else 0, for all i below the result, which is at most count.
@@ -93,10 +96,13 @@ template <template <std::size_t, class> class Question, std::size_t D, class Num
     constexpr auto axes = std::make_index_sequence<D>{};
     std::size_t i = 0;
     for (; i + 32 <= count; i += 32) {
-        const __m256i low =
-            _mm256_packs_epi32(eight_outside<Number>(asked, i, axes), eight_outside<Number>(asked, i + 8, axes));
-        const __m256i high =
-            _mm256_packs_epi32(eight_outside<Number>(asked, i + 16, axes), eight_outside<Number>(asked, i + 24, axes));
+        // Each is named, so that memory is read from front to back: the processor then foresees what is read next.
+        const __m256i first = eight_outside<Number>(asked, i, axes);
+        const __m256i second = eight_outside<Number>(asked, i + 8, axes);
+        const __m256i third = eight_outside<Number>(asked, i + 16, axes);
+        const __m256i fourth = eight_outside<Number>(asked, i + 24, axes);
+        const __m256i low = _mm256_packs_epi32(first, second);
+        const __m256i high = _mm256_packs_epi32(third, fourth);
         // Packing works on the halves of a vector, so four points of one half follow four of the other.
         __m256i outside =
             _mm256_permutevar8x32_epi32(_mm256_packs_epi16(low, high), _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7));

@@ -93,26 +93,6 @@ template <std::size_t D, class Number, std::size_t... K>
     return outside;
 }
 
-/// As inside_avx2 of columns. Rounds of 16 points, since with 32, which are 12 cache lines, the processor does not
-/// foresee what is read next.
-template <std::size_t D, class Number>
-[[gnu::target("avx2")]] std::size_t inside_avx2(row_question<D, Number> asked, std::size_t count,
-                                                unsigned char* mask) noexcept {
-    constexpr auto axes = std::make_index_sequence<D>{};
-    // Packing works on the halves of a vector, so four points of one half follow four of the other.
-    const __m128i order = sizeof(Number) == 8 ? _mm_setr_epi8(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15)
-                                              : _mm_setr_epi8(0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7, 12, 13, 14, 15);
-    std::size_t i = 0;
-    for (; i + 16 <= count; i += 16) {
-        const __m256i both =
-            _mm256_packs_epi32(eight_outside<Number>(asked, i, axes), eight_outside<Number>(asked, i + 8, axes));
-        const __m128i outside =
-            _mm_shuffle_epi8(_mm_packs_epi16(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1)), order);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(mask + i), _mm_andnot_si128(outside, _mm_set1_epi8(1)));
-    }
-    return i;
-}
-
 // ---- AVX-512
 
 /// One row again and again: D vectors.

@@ -5,6 +5,7 @@
 
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/instruction_set.hpp>
+#include <tsubu/core/mask_number.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/domain/detail/inside_columns.hpp>
 #include <tsubu/domain/detail/inside_rows.hpp>
@@ -157,7 +158,7 @@ inline std::size_t list_zeros_loop(const unsigned char* mask, std::size_t count,
             const auto which = static_cast<__mmask16>(zeros >> k);
             const __m512i index = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<index_t>(first + j + k)));
             _mm512_storeu_si512(out + found, _mm512_maskz_compress_epi32(which, index));
-            found += static_cast<std::size_t>(_mm_popcnt_u32(which));
+            found += static_cast<std::size_t>(_mm_popcnt_u32(number_of(which)));
         }
     }
     return found + list_zeros_loop(mask + j, count - j, first + j, out + found);

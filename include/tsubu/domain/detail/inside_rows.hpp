@@ -12,6 +12,7 @@
 /// all are inside: it saves little where all are, and is often wrong where one point in a hundred is not.
 #pragma once
 
+#include <tsubu/core/mask_number.hpp>
 #include <tsubu/domain/detail/inside_columns.hpp>
 
 #include <array>        // std::array
@@ -141,21 +142,21 @@ private:
     const double* x, const double* first, const double* last) noexcept {
     const __m512d at = _mm512_loadu_pd(x);
     const __mmask8 above = _mm512_cmp_pd_mask(at, _mm512_load_pd(first), _CMP_GE_OQ);
-    return _mm512_mask_cmp_pd_mask(above, at, _mm512_load_pd(last), _CMP_LE_OQ);
+    return number_of(_mm512_mask_cmp_pd_mask(above, at, _mm512_load_pd(last), _CMP_LE_OQ));
 }
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl"), gnu::always_inline]] inline std::uint64_t lanes_inside(
     const float* x, const float* first, const float* last) noexcept {
     const __m512 at = _mm512_loadu_ps(x);
     const __mmask16 above = _mm512_cmp_ps_mask(at, _mm512_load_ps(first), _CMP_GE_OQ);
-    return _mm512_mask_cmp_ps_mask(above, at, _mm512_load_ps(last), _CMP_LE_OQ);
+    return number_of(_mm512_mask_cmp_ps_mask(above, at, _mm512_load_ps(last), _CMP_LE_OQ));
 }
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl"), gnu::always_inline]] inline std::uint64_t lanes_between(
     __m512i x, const std::int64_t* least, const std::int64_t* width) noexcept {
-    return _mm512_cmple_epu64_mask(_mm512_sub_epi64(x, _mm512_load_si512(least)), _mm512_load_si512(width));
+    return number_of(_mm512_cmple_epu64_mask(_mm512_sub_epi64(x, _mm512_load_si512(least)), _mm512_load_si512(width)));
 }
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl"), gnu::always_inline]] inline std::uint64_t lanes_between(
     __m512i x, const std::int32_t* least, const std::int32_t* width) noexcept {
-    return _mm512_cmple_epu32_mask(_mm512_sub_epi32(x, _mm512_load_si512(least)), _mm512_load_si512(width));
+    return number_of(_mm512_cmple_epu32_mask(_mm512_sub_epi32(x, _mm512_load_si512(least)), _mm512_load_si512(width)));
 }
 /// The same for vector V of D: of floating-point numbers the first one as integers, as with columns.
 template <std::size_t V, std::size_t D, class Number>

@@ -3,6 +3,7 @@
 /// The loops of quotient_kernels.hpp in AVX-512.
 #pragma once
 
+#include <tsubu/core/mask_number.hpp>
 #include <tsubu/id/detail/quotient_kernels.hpp>
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -222,14 +223,6 @@ private:
             return number_of(_mm512_cmpeq_epi32_mask(line, _mm512_set1_epi32(static_cast<int>(tag))));
         else
             return number_of(_mm512_cmpeq_epi64_mask(line, _mm512_set1_epi64(static_cast<long long>(tag))));
-    }
-    /// A mask in a general register. GCC 12 may spill a mask as 16 bits and read it back as 32, whose upper half is
-    /// then whatever lay there before (seen with -O1 -fsanitize=undefined); an instruction of our own leaves it no
-    /// choice.
-    [[gnu::target("avx512f"), gnu::always_inline]] static inline std::uint32_t number_of(__mmask16 mask) noexcept {
-        std::uint32_t number;
-        asm("kmovw %1, %0" : "=r"(number) : "k"(mask));
-        return number;
     }
     [[gnu::target("avx512bw"), gnu::always_inline]] static inline __mmask16 join(__mmask8 low, __mmask8 high) noexcept {
         return _mm512_kunpackb(high, low);

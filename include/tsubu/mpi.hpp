@@ -5,5 +5,6 @@
 
 #include <tsubu/tsubu.hpp>
 
-#include <tsubu/comm/duplicate_ids.hpp>
+#include <tsubu/comm/mpi_environment.hpp>
 #include <tsubu/comm/mpi_error.hpp>
+#include <tsubu/comm/mpi_transport.hpp>

@@ -84,3 +84,17 @@
 #include <tsubu/io/restart_state.hpp>
 #include <tsubu/io/text_sink.hpp>
 #include <tsubu/io/vtk.hpp>
+
+#include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/balance.hpp>
+#include <tsubu/comm/duplicate_ids.hpp>
+#include <tsubu/comm/halo.hpp>
+#include <tsubu/comm/halo_pattern.hpp>
+#include <tsubu/comm/id_directory.hpp>
+#include <tsubu/comm/local_transport.hpp>
+#include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/migrate.hpp>
+#include <tsubu/comm/new_ids.hpp>
+#include <tsubu/comm/renumber.hpp>
+#include <tsubu/comm/self_transport.hpp>
+#include <tsubu/comm/transport.hpp>

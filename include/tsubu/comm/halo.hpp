@@ -86,7 +86,7 @@ public:
     template <class Store, particle_field... Field>
     void start_forward(const Store& store, Field...) {
         check<Store, Field...>(store, "halo::forward");
-        rounds_.front().start_forward(store, fields<Field{}...>{});
+        if (!rounds_.empty()) rounds_.front().start_forward(store, fields<Field{}...>{});
     }
     template <class Store, particle_field... Field>
     void finish_forward(Store& store, Field...) {
@@ -109,7 +109,7 @@ public:
     template <class Store, particle_field... Field>
     void start_reverse(const Store& store, Field...) {
         check<Store, Field...>(store, "halo::reverse");
-        rounds_.back().start_reverse(store, fields<Field{}...>{});
+        if (!rounds_.empty()) rounds_.back().start_reverse(store, fields<Field{}...>{});
     }
     template <class Store, particle_field... Field>
     void finish_reverse(Store& store, Field...) {

@@ -51,8 +51,9 @@ public:
             changed_.notify_all();
             return;
         }
-        changed_.wait(lock, [this, now = meetings_] { return meetings_ != now || is_broken_; });
-        refuse_if_broken();
+        const auto now = meetings_;
+        changed_.wait(lock, [&] { return meetings_ != now || is_broken_; });
+        if (meetings_ == now) refuse_if_broken();
     }
     void put(rank_t from, rank_t to, int tag, std::vector<std::uint64_t> words) {
         const std::lock_guard lock(mutex_);
@@ -207,8 +208,15 @@ private:
     void together(detail::meeting_place::post mine, Look&& look, std::span<Number> answer) {
         place_->at(rank_) = mine;
         place_->meet();
-        const auto found = look();
+        std::vector<Number> found;
+        std::exception_ptr thrown;
+        try {
+            found = look();
+        } catch (...) {  // kept: the others still look at what this rank shows
+            thrown = std::current_exception();
+        }
         place_->meet();
+        if (thrown) std::rethrow_exception(thrown);
         std::copy(found.begin(), found.end(), answer.begin());
     }
     template <class Number>

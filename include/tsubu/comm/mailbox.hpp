@@ -6,7 +6,7 @@
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>  // std::copy_n, std::stable_sort
+#include <algorithm>  // std::copy_n, std::sort
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <span>       // std::span
@@ -58,10 +58,12 @@ public:
 
     /// For transports: room for a parcel, to be filled. Ends what is left of earlier answers.
     [[nodiscard]] std::span<std::uint64_t> add(rank_t from, std::size_t words) {
-        letters_.push_back({from, buffer<std::uint64_t>(words, {})});
+        letters_.push_back({from, letters_.size(), buffer<std::uint64_t>(words, {})});
         return {letters_.back().words.data(), words};
     }
-    void add(rank_t from, buffer<std::uint64_t>&& words) { letters_.push_back({from, std::move(words)}); }
+    void add(rank_t from, buffer<std::uint64_t>&& words) {
+        letters_.push_back({from, letters_.size(), std::move(words)});
+    }
     /// A parcel with these words.
     void add(const parcel& one) {
         const auto room = add(one.rank, one.words.size());
@@ -69,13 +71,15 @@ public:
     }
     /// By rank of the sender; those of one sender stay in their order.
     void sort() {
-        std::stable_sort(letters_.begin(), letters_.end(),
-                         [](const letter& a, const letter& b) { return a.from < b.from; });
+        std::sort(letters_.begin(), letters_.end(), [](const letter& a, const letter& b) {
+            return a.from != b.from ? a.from < b.from : a.number < b.number;
+        });
     }
 
 private:
     struct letter {
         rank_t from;
+        std::size_t number;  // in the order of arrival
         buffer<std::uint64_t> words;
     };
 

@@ -38,10 +38,9 @@ struct clamp_lost {};
 /// For migrate: it is moved to another store of this rank, with all fields that this has too.
 template <class Store>
 struct collect_lost {
+    explicit collect_lost(Store& store) noexcept : into(store) {}
     Store& into;
 };
-template <class Store>
-collect_lost(Store&) -> collect_lost<Store>;
 
 /// What a migration has done on one rank.
 struct migration {

@@ -13,7 +13,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>  // std::copy, std::copy_n, std::stable_sort
+#include <algorithm>  // std::copy, std::copy_n, std::sort
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <limits>     // std::numeric_limits
@@ -242,6 +242,7 @@ private:
     struct incoming {
         struct piece {
             rank_t from;
+            std::size_t number;  // in the order of arrival
             buffer<std::uint64_t> words;
         };
         mailbox from_here;
@@ -257,7 +258,7 @@ private:
         int count = 0;
         check_mpi(MPI_Get_count(&status, MPI_UINT64_T, &count), "MPI_Get_count");
         try {
-            came.pieces.push_back({static_cast<rank_t>(status.MPI_SOURCE),
+            came.pieces.push_back({static_cast<rank_t>(status.MPI_SOURCE), came.pieces.size(),
                                    buffer<std::uint64_t>(static_cast<std::size_t>(count), {})});
         } catch (const std::bad_alloc&) {
             // It is taken and thrown away, or its sender would wait for ever.
@@ -271,7 +272,9 @@ private:
     // Joins the pieces of each parcel.
     [[nodiscard]] mailbox whole(incoming& came) const {
         auto& pieces = came.pieces;
-        std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+        std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+            return a.from != b.from ? a.from < b.from : a.number < b.number;
+        });
         mailbox box = std::move(came.from_here);
         for (std::size_t first = 0, last = 0; first < pieces.size(); first = last + 1) {
             std::size_t words = 0;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <tsubu/comm/mpi_transport.hpp>
+
+#include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/mpi_environment.hpp>
+#include <tsubu/testing/transport_conformance.hpp>
+
+#include "in_world.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace {
+
+using comm_laws::check_in;
+using comm_laws::check_in_world;
+using tsubu::testing::check_transport;
+
+/// The ranks of this half of the world, in the order that is not theirs there.
+struct half_of_the_world {
+    MPI_Comm comm = MPI_COMM_NULL;
+    half_of_the_world() {
+        int rank = 0;
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        MPI_Comm_split(MPI_COMM_WORLD, rank % 2, -rank, &comm);
+    }
+    ~half_of_the_world() { MPI_Comm_free(&comm); }
+};
+
+}  // namespace
+
+TEST_CASE("MPI keeps all laws of a transport", "[comm][mpi][conformance]") {
+    check_in_world([](auto& on, verdict& seen) { check_transport(on, 5, 60, seen); });
+}
+TEST_CASE("messages that are sent in pieces arrive whole", "[comm][mpi][conformance]") {
+    for (const std::size_t most_words : {1U, 2U, 7U})
+        check_in(MPI_COMM_WORLD, most_words,
+                 [&](auto& on, verdict& seen) { check_transport(on, most_words, 12, seen); });
+}
+TEST_CASE("a part of the world is a transport of its own", "[comm][mpi][conformance]") {
+    const half_of_the_world half;
+    int size = 0;
+    MPI_Comm_size(half.comm, &size);
+    check_in(half.comm, 7, [&](auto& on, verdict& seen) {
+        CHECK(on.ranks() == static_cast<std::size_t>(size));
+        check_transport(on, 9, 20, seen);
+    });
+}
+TEST_CASE("messages of several transports do not meet", "[comm][mpi][conformance]") {
+    const half_of_the_world half;
+    check_in_world([&](auto& on, verdict& seen) {
+        tsubu::mpi_transport other(MPI_COMM_WORLD, 7);
+        tsubu::mpi_transport part(half.comm);
+        for (std::uint64_t seed = 0; seed < 4; ++seed) {
+            check_transport(on, seed, 4, seen);
+            check_transport(other, seed, 4, seen);
+            check_transport(part, seed, 4, seen);
+        }
+        // A channel of one is on its way while the other exchanges.
+        if (on.ranks() == 1) return;
+        const auto next = static_cast<tsubu::rank_t>((on.rank() + 1) % on.ranks());
+        const auto last = static_cast<tsubu::rank_t>((on.rank() + on.ranks() - 1) % on.ranks());
+        tsubu::mpi_transport::channel way(on, on.next_tag(), {{next, 3}}, {{last, 3}});
+        way.out()[2] = on.rank();
+        way.start();
+        check_transport(other, 8, 4, seen);
+        way.finish();
+        CHECK(way.in()[2] == last);
+    });
+}
+TEST_CASE("exchanges that follow each other are not mixed up", "[comm][mpi]") {
+    check_in_world([](auto& on, verdict& seen) {
+        // No rank waits for the others between them.
+        const auto ranks = static_cast<tsubu::rank_t>(on.ranks());
+        for (std::uint64_t k = 0; k < 500; ++k) {
+            const std::vector<std::uint64_t> words(k % 5, k);
+            const tsubu::parcel parcels[] = {{static_cast<tsubu::rank_t>((on.rank() + k) % ranks), words}};
+            const auto came = on.exchange(parcels, {});
+            seen(came.size() == 1 && came[0].words.size() == k % 5 && (k % 5 == 0 || came[0].words[0] == k),
+                 "exchange: the parcels of this exchange, and no others");
+        }
+    });
+}
+TEST_CASE("what an MPI transport is given is checked before any message", "[comm][mpi]") {
+    CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_NULL), tsubu::input_error);
+    CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_WORLD, 0), tsubu::input_error);
+    CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_WORLD, std::size_t{1} << 31), tsubu::input_error);
+    tsubu::mpi_transport on(MPI_COMM_WORLD);
+    const tsubu::parcel nowhere[] = {{static_cast<tsubu::rank_t>(on.ranks()), {}}};
+    CHECK_THROWS_AS(static_cast<void>(on.exchange(nowhere, {})), tsubu::input_error);
+}
+TEST_CASE("ranks of an agreement learn of the others over MPI", "[comm][mpi][agreement]") {
+    check_in_world([](auto& on, verdict& seen) {
+        for (tsubu::rank_t culprit = 0; culprit < on.ranks(); ++culprit) {
+            tsubu::agreement<1> all(on.rank());
+            all.attempt([&] {
+                if (on.rank() == culprit) throw tsubu::limit_error("no room");
+            });
+            all[0] = 2;
+            static_cast<void>(on.exchange({}, all.words()));
+            std::string text;
+            try {
+                all.settle("test");
+            } catch (const tsubu::limit_error& thrown) {
+                text = thrown.what();
+            }
+            seen(all[0] == 2 * on.ranks(), "agreement: its sums are those of all ranks");
+            seen(on.rank() == culprit ? text == "no room"
+                                      : text.find("rank " + std::to_string(culprit) + " exceeded") != text.npos,
+                 "agreement: the rank that failed throws what it threw, the others name it");
+        }
+    });
+}
+TEST_CASE("a channel that was started and never finished ends without harm", "[comm][mpi]") {
+    check_in_world([](auto& on, verdict& seen) {
+        seen(true, "channel: it ends");
+        if (on.ranks() == 1) return;
+        const auto next = static_cast<tsubu::rank_t>((on.rank() + 1) % on.ranks());
+        const auto last = static_cast<tsubu::rank_t>((on.rank() + on.ranks() - 1) % on.ranks());
+        {
+            tsubu::mpi_transport::channel way(on, on.next_tag(), {{next, 5}}, {{last, 5}});
+            auto moved = std::move(way);
+            moved.start();
+        }
+        std::uint64_t sums[] = {1};
+        on.reduce(std::span<std::uint64_t>(sums), tsubu::reduction::sum);
+    });
+}
+TEST_CASE("an MPI that runs is left to who has started it", "[comm][mpi][mpi_environment]") {
+    int argc = 0;
+    char** argv = nullptr;
+    { const tsubu::mpi_environment mpi(argc, argv); }
+    int ended = 0;
+    MPI_Finalized(&ended);
+    CHECK(ended == 0);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include <tsubu/comm/migrate.hpp>
+
+#include <tsubu/comm/self_transport.hpp>
+
+#include "comm_laws/migrate_laws.hpp"
+#include "comm_laws/on_ranks.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace {
+
+using comm_laws::at_first;
+using comm_laws::box_of;
+using comm_laws::check_on_ranks;
+using comm_laws::each_decomposition;
+using comm_laws::migrate_keeps_all;
+using comm_laws::tilted_box_of;
+using comm_laws::wedge_of;
+
+constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 8};
+
+template <class Layout = tsubu::soa, class Box>
+void check_motion(const Box& box, at_first first = at_first::everyone) {
+    for (const auto ranks : some_ranks)
+        each_decomposition(box, ranks, [&](const auto& parts) {
+            check_on_ranks(ranks, [&](auto& on, verdict& seen) {
+                migrate_keeps_all<Layout>(parts, on, ranks, 50, 21, seen, first);
+            });
+        });
+}
+
+}  // namespace
+
+TEST_CASE("no particle is lost or doubled in boxes with right angles", "[comm][migrate]") {
+    check_motion(box_of<1>(1));
+    check_motion(box_of<2>(1));
+    check_motion(box_of<3>(7));
+}
+TEST_CASE("no particle is lost or doubled in boxes that are sheared, or sectors", "[comm][migrate]") {
+    check_motion(tilted_box_of<2>(0.4, 3));
+    check_motion(tilted_box_of<3>(1.7, 5));
+    check_motion(wedge_of(2));
+    check_motion(wedge_of(6));
+}
+TEST_CASE("particles of all scalars and layouts migrate", "[comm][migrate]") {
+    check_motion(box_of<2, float>(3));
+    check_motion(box_of<3, tsubu::lattice<std::int32_t>>(7));
+    check_motion(box_of<2, tsubu::lattice<std::int64_t>>(3));
+    check_motion<tsubu::aos>(box_of<3>(3));
+    check_motion<tsubu::aosoa<8>>(box_of<2>(3));
+}
+TEST_CASE("one rank that has all particles sends them to the others", "[comm][migrate]") {
+    check_motion(box_of<2>(3), at_first::the_last_rank);
+    check_motion(box_of<3>(7), at_first::owners);
+}
+TEST_CASE("few particles leave most ranks empty", "[comm][migrate]") {
+    const auto box = box_of<3>(7);
+    each_decomposition(box, 8, [&](const auto& parts) {
+        for (const std::size_t count : {1U, 2U, 5U})
+            check_on_ranks(8, [&](auto& on, verdict& seen) { migrate_keeps_all(parts, on, count, count, 30, seen); });
+    });
+}
+TEST_CASE("a program of one process migrates without threads", "[comm][migrate]") {
+    tsubu::self_transport on;
+    verdict seen;
+    each_decomposition(box_of<3>(5), 1, [&](const auto& parts) { migrate_keeps_all(parts, on, 3, 50, 40, seen); });
+    INFO(seen.first);
+    CHECK(seen.broken.empty());
+}
+TEST_CASE("particles that have left the box are refused, collected or clamped", "[comm][migrate]") {
+    const auto check = [](const auto& box, std::size_t axis) {
+        for (const auto ranks : some_ranks)
+            each_decomposition(box, ranks, [&](const auto& parts) {
+                check_on_ranks(ranks, [&](auto& on, verdict& seen) {
+                    comm_laws::migrate_settles_the_lost(parts, on, ranks, axis, seen);
+                });
+            });
+    };
+    check(box_of<1>(0), 0);
+    check(box_of<2>(1), 1);
+    check(box_of<3>(3), 2);
+    check(box_of<2, float>(2), 0);
+    check(tilted_box_of<2>(0.4, 1), 1);
+    check(tilted_box_of<3>(0.7, 2), 2);
+    check(wedge_of(5), 1);
+}
+TEST_CASE("a decomposition for other ranks is refused on all", "[comm][migrate]") {
+    const auto box = box_of<2>(3);
+    for (const auto ranks : some_ranks) {
+        const tsubu::brick_decomposition<2> bricks(box, ranks);
+        const tsubu::brick_decomposition<2> more(box, ranks + 1);
+        check_on_ranks(ranks, [&](auto& on, verdict& seen) {
+            comm_laws::migrations all(bricks, on, 3, 20, at_first::owners, seen);
+            all.refuse_other_ranks(more);
+        });
+    }
+}
+TEST_CASE("2000 steps of random motion lose nothing", "[comm][migrate]") {
+    const auto box = box_of<3>(7);
+    const tsubu::brick_decomposition<3> bricks(box, 4);
+    check_on_ranks(4, [&](auto& on, verdict& seen) {
+        comm_laws::migrations all(bricks, on, 11, 24, at_first::everyone, seen);
+        for (std::size_t k = 0; k < 2000; ++k) all.step(k, 10);
+    });
+}
+TEST_CASE("1e5 steps of random motion lose nothing", "[comm][migrate][.slow]") {
+    const auto box = box_of<3>(7);
+    each_decomposition(box, 4, [&](const auto& parts) {
+        check_on_ranks(4, [&](auto& on, verdict& seen) {
+            comm_laws::migrations all(parts, on, 12, 24, at_first::everyone, seen);
+            for (std::size_t k = 0; k < 100'000; ++k) all.step(k, 100);
+            all.look();
+        });
+    });
+}

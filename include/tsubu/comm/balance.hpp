@@ -32,7 +32,8 @@
 namespace tsubu {
 namespace detail {
 
-/// Weights in steps of a unit, so that sums do not depend on the order in which they are taken, nor on the number of ranks.
+/// Weights in steps of a unit, so that sums depend neither on the order in which they are taken nor on the number of
+/// ranks.
 class counted_weights {
 public:
     /// @throws on all ranks or none: input_error if a weight is negative or not finite, or there is not one for each.
@@ -60,7 +61,8 @@ public:
         all.settle(where);
         on.reduce(std::span<double>(greatest), reduction::greatest);
         // Of 2^63 in all, each particle may have as much as the heaviest.
-        const auto most = static_cast<double>(std::uint64_t{1} << 62) / static_cast<double>((std::max)(all[0], std::uint64_t{1}));
+        const auto particles_of_all = static_cast<double>((std::max)(all[0], std::uint64_t{1}));
+        const auto most = static_cast<double>(std::uint64_t{1} << 62) / particles_of_all;
         scale_ = greatest[0] > 0 ? most / greatest[0] : 0;
     }
     [[nodiscard]] std::uint64_t operator[](std::size_t i) const noexcept {
@@ -205,7 +207,8 @@ template <transport Transport, class Box, class Positions>
 /// @param weights    of each [n]; or none: then all are 1
 /// @param least      width of a part along each axis, in units of the cell
 /// @param sample     how many positions are gathered from all ranks together
-/// @throws on all ranks: input_error as balanced_bricks; if a part is narrower than `least`, with the part and its width.
+/// @throws on all ranks: input_error as balanced_bricks; if a part is narrower than `least`, with the part and its
+///         width.
 /// Complexity: O(sample log sample); 8 (D + 1) bytes per position of the sample to each rank.
 /// Collective: yes; the same box, width and sample on all ranks. A gather and three reductions.
 template <transport Transport, class Box, class Positions>

@@ -111,8 +111,8 @@ private:
 /// @throws on all ranks, or on none: input_error if one rank passes a negative id; limit_error if one is out of memory
 ///         (that rank itself: std::bad_alloc); what the transport throws.
 /// Complexity:  O(n log n) with n = N_total / P; 8 bytes sent and 24 held per owned id.
-/// Collective:  yes; Id must be the same on all ranks. A message of about 8 n / P bytes to each rank, one to each that is
-///              told, four reductions. The result does not depend on the order in which messages arrive.
+/// Collective:  yes; Id must be the same on all ranks. A message of about 8 n / P bytes to each rank, one to each that
+///              is told, four reductions. The result does not depend on the order in which messages arrive.
 /// Source:      A13.
 template <particle_id Id, transport Transport>
 [[nodiscard]] duplicate_report<Id> duplicate_ids(Transport& on, std::span<const Id> owned) {

@@ -152,7 +152,8 @@ private:
     }
     // One step of the pattern. Collective. The guarantee is that of make_halo.
     template <class Store>
-    void make_step(Store& store, const Parts& parts, Transport& on, const halo_step<Parts>& step, const std::vector<std::size_t>& begins) {
+    void make_step(Store& store, const Parts& parts, Transport& on, const halo_step<Parts>& step,
+                   const std::vector<std::size_t>& begins) {
         round_type next(*box_, on);
         std::vector<std::uint64_t> words;
         try {
@@ -178,8 +179,8 @@ private:
     std::vector<round_type> rounds_;
 };
 
-/// Makes ghosts of all particles of other ranks, and of images, that lie within the cutoff of this rank's subdomain; the
-/// store's earlier ghosts are cleared.
+/// Makes ghosts of all particles of other ranks, and of images, that lie within the cutoff of this rank's subdomain;
+/// the store's earlier ghosts are cleared.
 ///
 ///     auto halo = tsubu::make_halo(grains, bricks, cutoff, on);
 ///     auto halo = tsubu::make_halo(grains, bricks, cutoff, on, tsubu::staged_pattern{});
@@ -196,8 +197,8 @@ private:
 /// Precondition: the particles are on the ranks that own them, as after migrate.
 /// Complexity: O(n) comparisons for each neighbour; bytes: the fields of the ghosts, 8 per rank, 8 (D + 1) per rank and
 ///             image.
-/// Collective: yes; the same decomposition, cutoff and pattern on all ranks. One reduction, for each step of the pattern
-///             two, and one message to each rank that gets any.
+/// Collective: yes; the same decomposition, cutoff and pattern on all ranks. One reduction, for each step of the
+///             pattern two, and one message to each rank that gets any.
 template <class Store, decomposition Parts, transport Transport, class Pattern = direct_pattern>
     requires halo_pattern<Pattern, Parts>
 [[nodiscard]] halo<Parts, Transport> make_halo(Store& store, const Parts& parts, typename Parts::real_type cutoff,

@@ -2,10 +2,10 @@
 /// @file
 /// halo_pattern: which ranks ghosts go to, in which steps; and the table of the models.
 ///
-/// | pattern        | messages per step and rank                  | choose it when                                           |
-/// |----------------|---------------------------------------------|----------------------------------------------------------|
-/// | direct_pattern | one to each rank within the cutoff          | any decomposition; ghosts are to arrive in one step      |
-/// | staged_pattern | two per axis, one axis after the other      | bricks; messages are dear, and ranks have 26 neighbours  |
+/// | pattern        | messages per step and rank             | choose it when                                        |
+/// |----------------|----------------------------------------|-------------------------------------------------------|
+/// | direct_pattern | one to each rank within the cutoff     | any decomposition; ghosts are to arrive in one step   |
+/// | staged_pattern | two per axis, one axis after the other | bricks; messages are dear, and there are 26 neighbours |
 #pragma once
 
 #include <tsubu/comm/detail/frame.hpp>
@@ -47,8 +47,8 @@ struct halo_step {
 
 /// How ghosts reach those that ask for them.
 ///  1. plan(parts, rank, cutoff) has as many steps on all ranks; each step takes from groups that are there by then;
-///  2. after all steps each rank has a ghost of every image that lies within the cutoff of its subdomain, but of its own
-///     particles as they are, and each image once.
+///  2. after all steps each rank has a ghost of every image that lies within the cutoff of its subdomain, but of its
+///     own particles as they are, and each image once.
 template <class Pattern, class Parts>
 concept halo_pattern = decomposition<Parts> && requires(const Pattern& pattern, const Parts& parts, rank_t rank,
                                                         typename Parts::real_type cutoff) {
@@ -88,14 +88,15 @@ template <std::size_t D, class Scalar, class Border>
     return parts;
 }
 template <class Box, std::size_t D, class Scalar, class Border>
-[[nodiscard]] const auto& bricks_of(const cell_decomposition<Box, brick_decomposition<D, Scalar, Border>>& parts) noexcept {
+[[nodiscard]] const auto& bricks_of(
+    const cell_decomposition<Box, brick_decomposition<D, Scalar, Border>>& parts) noexcept {
     return parts.parts();
 }
 
 }  // namespace detail
 
-/// Ghosts go along one axis after the other, to the next brick on either side; what has come along one axis goes on along
-/// the next, and as many bricks far as the cutoff reaches.
+/// Ghosts go along one axis after the other, to the next brick on either side; what has come along one axis goes on
+/// along the next, and as many bricks far as the cutoff reaches.
 ///
 /// Concept:      halo_pattern, of bricks in a domain or a triclinic_box, whose coordinates are not on a lattice.
 /// Cost:         two messages to and from each rank and axis, or more if the cutoff is longer than a brick, one after
@@ -132,8 +133,8 @@ struct staged_pattern {
 
 private:
     template <class Parts, class Bricks, class Place, class Part>
-    static void add_next(halo_step<Parts>& step, const Parts& parts, const Bricks& bricks, Place place, std::size_t axis,
-                         bool upwards, typename Parts::real_type cutoff, const Part& here) {
+    static void add_next(halo_step<Parts>& step, const Parts& parts, const Bricks& bricks, Place place,
+                         std::size_t axis, bool upwards, typename Parts::real_type cutoff, const Part& here) {
         const auto count = bricks.along(axis).parts();
         image_shift<Parts::dimension> shift{};
         const bool is_last = upwards ? place[axis] + 1 == count : place[axis] == 0;
@@ -159,7 +160,8 @@ private:
         }
         const bool is_periodic = along.is_periodic();
         // However widths were rounded: a hop too many brings nothing, one too few loses ghosts.
-        const Real slack = 8 * std::numeric_limits<Real>::epsilon() * (std::abs(along.real().lo()) + std::abs(along.real().hi()));
+        const Real slack = 8 * std::numeric_limits<Real>::epsilon() *
+                           (std::abs(along.real().lo()) + std::abs(along.real().hi()));
         std::size_t most = 0;
         for (std::size_t first = 0; first < count; ++first) {
             // Bricks between `first` and the one that is reached take up room.

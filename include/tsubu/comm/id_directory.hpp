@@ -33,8 +33,8 @@ inline constexpr rank_t no_rank = (std::numeric_limits<rank_t>::max)();
 ///     owners.rebuild(on, grains.owned()[tsubu::id].span());
 ///     auto ranks = owners.find(on, partner_ids);              // tsubu::no_rank where nobody owns it
 ///
-/// It is true until a particle changes its rank; then rebuild. For partners beyond the ghosts, for what has been lost, for messages
-/// to the owner of an id.
+/// It is true until a particle changes its rank; then rebuild. For partners beyond the ghosts, for what has been lost,
+/// for messages to the owner of an id.
 template <particle_id Id = std::int64_t>
 class id_directory {
     using map_type = id_map<adaptive_storage<std::uint64_t>>;

@@ -103,7 +103,9 @@ public:
         indices_.reserve(leavers_.size());
         for (const auto& one : leavers_) indices_.push_back(one.index);
         std::size_t words = 0;
-        each_destination([&](rank_t, std::span<const index_t> chosen) { words += 1 + packed_words(store_, set, chosen); });
+        each_destination([&](rank_t, std::span<const index_t> chosen) {
+            words += 1 + packed_words(store_, set, chosen);
+        });
         words_ = buffer<std::uint64_t>(words, {});
         std::size_t at = 0;
         each_destination([&](rank_t to, std::span<const index_t> chosen) {

@@ -81,10 +81,10 @@ private:
 ///               exchange", doi:10.1145/1693453.1693476.
 class mpi_transport {
 public:
-    /// @param most_words  of one message; longer ones are sent in pieces. 2^27 words are 1 GiB, below the 2 GiB at which
-    ///                    implementations begin to fail.
-    /// @throws input_error if MPI is not running, or the communicator is null or an intercommunicator, or there may be no
-    ///         word in a message; mpi_error.
+    /// @param most_words  of one message; longer ones are sent in pieces. 2^27 words are 1 GiB, below the 2 GiB at
+    ///                    which implementations begin to fail.
+    /// @throws input_error if MPI is not running, or the communicator is null or an intercommunicator, or there may be
+    ///         no word in a message; mpi_error.
     explicit mpi_transport(MPI_Comm over, std::size_t most_words = std::size_t{1} << 27)
         : own_(over, "mpi_transport"), most_words_(most_words) {
         if (most_words == 0 || most_words > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
@@ -163,7 +163,8 @@ public:
         mailbox came;
         for (std::size_t k = 0; k < ranks(); ++k)
             came.add(parcel{static_cast<rank_t>(k),
-                            std::span(all).subspan(static_cast<std::size_t>(places[k]), static_cast<std::size_t>(lengths[k]))});
+                            std::span(all).subspan(static_cast<std::size_t>(places[k]),
+                                                   static_cast<std::size_t>(lengths[k]))});
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
@@ -231,7 +232,8 @@ private:
 
     static void check_mpi(int code, const char* call) { detail::check_mpi(code, call); }
 
-    // Pieces of most_words, and a last one that is shorter, perhaps empty: that it is shorter tells that it is the last.
+    // Pieces of most_words, and a last one that is shorter, perhaps empty: that it is shorter tells that it is the
+    // last.
     template <class Word, class Body>
     void each_piece(std::span<Word> words, Body&& body) const {
         for (; words.size() >= most_words_; words = words.subspan(most_words_)) body(words.first(most_words_));

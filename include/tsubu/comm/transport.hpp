@@ -13,7 +13,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <concepts>  // std::constructible_from, std::same_as
+#include <concepts>  // std::constructible_from, std::move_constructible, std::same_as
 #include <cstddef>   // std::size_t
 #include <cstdint>   // std::uint64_t
 #include <span>      // std::span
@@ -62,7 +62,9 @@ concept transport = requires(Transport& on, const Transport& here, std::span<con
     { on.gather(words) } -> std::same_as<mailbox>;
     { on.sum_before(std::uint64_t{}) } -> std::same_as<std::uint64_t>;
     { on.next_tag() } -> std::same_as<int>;
-    requires std::constructible_from<typename Transport::channel, Transport&, int, std::vector<lane>, std::vector<lane>>;
+    requires std::constructible_from<typename Transport::channel, Transport&, int, std::vector<lane>,
+                                     std::vector<lane>>;
+    requires std::move_constructible<typename Transport::channel>;
     { way.out() } -> std::same_as<std::span<std::uint64_t>>;
     { way.in() } -> std::same_as<std::span<const std::uint64_t>>;
     way.start();

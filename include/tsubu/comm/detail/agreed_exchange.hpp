@@ -13,8 +13,8 @@
 
 namespace tsubu::detail {
 
-/// prepare(parcels) on every rank, then take(mailbox), which may keep it; if either throws on one rank, all throw, and those that have
-/// prepared take nothing. What parcels refer to must live as long as prepare's surroundings.
+/// prepare(parcels) on every rank, then take(mailbox), which may keep it; if either throws on one rank, all throw, and
+/// those that have prepared take nothing. What parcels refer to must live as long as prepare's surroundings.
 /// Collective: yes; the messages and two reductions.
 template <transport Transport, class Prepare, class Take>
 void agreed_exchange(Transport& on, const char* where, Prepare&& prepare, Take&& take) {

@@ -97,4 +97,5 @@
 #include <tsubu/comm/new_ids.hpp>
 #include <tsubu/comm/renumber.hpp>
 #include <tsubu/comm/self_transport.hpp>
+#include <tsubu/comm/shared_restart.hpp>
 #include <tsubu/comm/transport.hpp>

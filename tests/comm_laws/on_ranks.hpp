@@ -15,6 +15,8 @@
 
 namespace comm_laws {
 
+inline constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 8};
+
 /// body(on, check) as each rank; the verdicts of all.
 template <class Body>
 [[nodiscard]] std::vector<verdict> verdicts_of(std::size_t ranks, Body&& body) {

@@ -28,10 +28,11 @@ class mailbox {
 public:
     [[nodiscard]] std::size_t size() const noexcept { return letters_.size(); }
     [[nodiscard]] bool empty() const noexcept { return letters_.empty(); }
-    [[nodiscard]] parcel operator[](std::size_t k) const noexcept {
+    [[nodiscard]] parcel operator[](std::size_t k) const& noexcept {
         const auto& one = letters_[k];
         return {one.from, {one.words.data(), one.words.size()}};
     }
+    void operator[](std::size_t) const&& = delete;  // its words would be gone
     /// Of all parcels.
     [[nodiscard]] std::size_t words() const noexcept {
         std::size_t sum = 0;

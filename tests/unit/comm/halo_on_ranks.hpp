@@ -11,7 +11,6 @@
 
 namespace comm_laws {
 
-inline constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 8};
 inline constexpr std::initializer_list<double> no_cutoff_to_several_boxes = {0, 0.07, 0.4, 1.1, 2.5};
 
 template <class Layout = tsubu::soa, class Box>

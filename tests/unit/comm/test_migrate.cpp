@@ -16,10 +16,10 @@ using comm_laws::box_of;
 using comm_laws::check_on_ranks;
 using comm_laws::each_decomposition;
 using comm_laws::migrate_keeps_all;
+using comm_laws::some_ranks;
 using comm_laws::tilted_box_of;
 using comm_laws::wedge_of;
 
-constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 8};
 
 template <class Layout = tsubu::soa, class Box>
 void check_motion(const Box& box, at_first first = at_first::everyone) {

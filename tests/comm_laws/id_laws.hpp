@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What the services for ids promise, on any transport. Every rank knows all ids, and who owns which.
+#pragma once
+
+#include <tsubu/comm/duplicate_ids.hpp>
+#include <tsubu/comm/id_directory.hpp>
+#include <tsubu/comm/new_ids.hpp>
+#include <tsubu/comm/renumber.hpp>
+#include <tsubu/core/random.hpp>
+
+#include "unit/thrown.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace comm_laws {
+
+/// Ids that `count` particles might have, shuffled among ranks; the last rank has none.
+template <class Id>
+struct dealt_ids {
+    std::vector<Id> all;
+    std::vector<tsubu::rank_t> owners;
+
+    dealt_ids(std::uint64_t seed, std::size_t count, std::size_t ranks) {
+        tsubu::random_stream random(seed);
+        std::set<Id> different;
+        while (different.size() < count)
+            different.insert(static_cast<Id>(random.below(3) == 0 ? random.below(1000) + 1 : random.below(2000000000)));
+        for (const auto t : different) {
+            all.push_back(t);
+            owners.push_back(static_cast<tsubu::rank_t>(ranks == 1 ? 0 : random.below(ranks - 1)));
+        }
+    }
+    [[nodiscard]] std::vector<Id> of(tsubu::rank_t rank) const {
+        std::vector<Id> mine;
+        for (std::size_t k = all.size(); k-- > 0;)  // not in order
+            if (owners[k] == rank) mine.push_back(all[k]);
+        return mine;
+    }
+};
+
+template <class Id, class Transport, class Check>
+void directory_finds_owners(Transport& on, std::uint64_t seed, Check&& check) {
+    const dealt_ids<Id> dealt(seed, 300, on.ranks());
+    const auto mine = dealt.of(on.rank());
+    tsubu::id_directory<Id> owners;
+    owners.rebuild(on, std::span<const Id>(mine));
+    auto asked = dealt.all;
+    if (on.rank() == 0) asked.clear();  // a rank without questions
+    for (const auto t : {Id{0}, static_cast<Id>(-1)}) asked.push_back(t);
+    const auto found = owners.find(on, std::span<const Id>(asked));
+    check(found.size() == asked.size(), "directory: an answer for each question");
+    for (std::size_t k = 0; k + 2 < asked.size(); ++k) check(found[k] == dealt.owners[k], "directory: the owner");
+    check(found[found.size() - 1] == tsubu::no_rank && found[found.size() - 2] == tsubu::no_rank,
+          "directory: ids that nobody owns");
+
+    // An id that two ranks own, or one twice, is refused on all; the directory stays as it was.
+    auto doubled = mine;
+    if (on.rank() == 0) doubled.push_back(dealt.all.back());
+    const auto message =
+        thrown<tsubu::input_error>([&] { owners.rebuild(on, std::span<const Id>(doubled)); });
+    check(message != "nothing was thrown", "directory: a duplicate is refused on all ranks");
+    const auto still = owners.find(on, std::span<const Id>(dealt.all));
+    check(std::equal(still.begin(), still.end(), dealt.owners.begin()), "directory: as before after a refusal");
+}
+
+template <class Id, class Transport, class Check>
+void new_ids_never_collide(Transport& on, std::uint64_t seed, Check&& check) {
+    const dealt_ids<Id> dealt(seed, 50, on.ranks());
+    const auto mine = dealt.of(on.rank());
+    auto ids = tsubu::new_ids<Id>::above(on, std::span<const Id>(mine));
+    std::set<std::uint64_t> seen(dealt.all.begin(), dealt.all.end());
+    std::uint64_t handed_out = 0;
+    for (int round = 0; round < 5; ++round) {
+        if (round == 3) ids = tsubu::new_ids<Id>(ids.next());  // as after a restart
+        const auto count = (on.rank() + static_cast<std::size_t>(round)) % 3;
+        const auto first = ids.take(on, count);
+        std::vector<std::uint64_t> words;
+        for (std::size_t k = 0; k < count; ++k) words.push_back(static_cast<std::uint64_t>(first) + k);
+        std::uint64_t last = 0;
+        for (const auto& [rank, told] : on.gather(words))
+            for (const auto t : told) {
+                check(seen.insert(t).second, "new ids: each once");
+                check(last == 0 || t == last + 1, "new ids: one after the other over the ranks");
+                last = t;
+                ++handed_out;
+            }
+    }
+    check(ids.next() == static_cast<std::uint64_t>(*std::max_element(dealt.all.begin(), dealt.all.end())) + 1 + handed_out,
+          "new ids: without gaps");
+    tsubu::new_ids<std::int32_t> few(2147483640);
+    check(says(thrown<tsubu::limit_error>([&] { static_cast<void>(few.take(on, on.rank() == 0 ? 9 : 0)); }), "9 ids"),
+          "new ids: refused past the type");
+    check(few.take(on, 0) == 2147483640, "new ids: none was handed out by a refusal");
+}
+
+template <class Id, class Transport, class Check>
+void renumbering_depends_on_ids_alone(Transport& on, std::uint64_t seed, Check&& check) {
+    const dealt_ids<Id> dealt(seed, 300, on.ranks());
+    const auto mine = dealt.of(on.rank());
+    const auto fresh = tsubu::renumbered<Id>(on, mine, Id{7});
+    check(fresh.size() == mine.size(), "renumbered: one for each");
+    for (std::size_t k = 0; k < fresh.size(); ++k) {
+        const auto place = std::lower_bound(dealt.all.begin(), dealt.all.end(), mine[k]) - dealt.all.begin();
+        check(fresh[k] == static_cast<Id>(place + 7), "renumbered: in the order of the ids");
+    }
+    auto doubled = mine;
+    if (on.rank() == 0) doubled.push_back(dealt.all.front());
+    check(thrown<tsubu::input_error>([&] { static_cast<void>(tsubu::renumbered<Id>(on, doubled)); }) !=
+              "nothing was thrown",
+          "renumbered: a duplicate is refused on all ranks");
+    if (on.ranks() == 1) return;
+    const std::vector<Id> none;
+    check(tsubu::renumbered<Id>(on, on.rank() == 0 ? std::span<const Id>(mine) : std::span<const Id>(none)).size() ==
+              (on.rank() == 0 ? mine.size() : 0),
+          "renumbered: ranks without particles");
+}
+
+template <class Transport, class Check>
+void duplicates_are_told(Transport& on, std::uint64_t seed, Check&& check) {
+    tsubu::random_stream random(seed);
+    std::map<std::int64_t, std::vector<tsubu::rank_t>> owners;
+    std::vector<std::int64_t> mine;
+    for (tsubu::rank_t rank = 0; rank < on.ranks(); ++rank)
+        for (auto k = random.below(40); k > 0; --k) {
+            const auto t = static_cast<std::int64_t>(random.below(60));
+            owners[t].push_back(rank);
+            if (rank == on.rank()) mine.push_back(t);
+        }
+    std::vector<tsubu::duplicate_id<std::int64_t>> expected;
+    std::size_t total = 0;
+    for (const auto& [t, ranks] : owners) {
+        if (ranks.size() < 2) continue;
+        ++total;
+        if (std::find(ranks.begin(), ranks.end(), on.rank()) != ranks.end())
+            expected.push_back({t, ranks.front(), ranks.back()});
+    }
+    const auto found = tsubu::duplicate_ids(on, std::span<const std::int64_t>(mine));
+    check(found.total == total, "duplicates: their number");
+    check(found.here == expected, "duplicates: told to those that own them");
+}
+
+template <class Transport, class Check>
+void ids_are_served(Transport& on, Check&& check) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        directory_finds_owners<std::int64_t>(on, seed, check);
+        directory_finds_owners<std::uint32_t>(on, seed, check);
+        new_ids_never_collide<std::int64_t>(on, seed, check);
+        renumbering_depends_on_ids_alone<std::int64_t>(on, seed, check);
+        renumbering_depends_on_ids_alone<std::int32_t>(on, seed, check);
+        duplicates_are_told(on, seed, check);
+    }
+    std::vector<std::int64_t> ids{5, 6};
+    if (on.rank() + 1 == on.ranks()) ids[1] = -3;
+    const std::span<const std::int64_t> negative(ids);
+    tsubu::id_directory<> owners;
+    const auto refused = [&](auto&& call) { return thrown<tsubu::input_error>(call) != "nothing was thrown"; };
+    check(refused([&] { owners.rebuild(on, negative); }), "directory: a negative id is refused on all");
+    check(refused([&] { static_cast<void>(tsubu::new_ids<>::above(on, negative)); }), "new ids: so it is");
+    check(refused([&] { static_cast<void>(tsubu::renumbered<std::int64_t>(on, negative)); }), "renumbered: so it is");
+    check(refused([&] { static_cast<void>(tsubu::duplicate_ids(on, negative)); }), "duplicates: so it is");
+}
+
+}  // namespace comm_laws

@@ -39,7 +39,7 @@ struct outline {
 };
 inline constexpr tsubu::field<"contacts", tsubu::list_of<contact>> contacts{};
 inline constexpr tsubu::field<"shape", tsubu::bonus_of<outline>> shape{};
-inline constexpr tsubu::field<"tally", double> tally{};
+inline constexpr tsubu::field<"tally", double, "", tsubu::field_traits{.reverse = tsubu::ghosts_add::sum}> tally{};
 inline constexpr tsubu::field<"lowest", std::int32_t, "", tsubu::field_traits{.reverse = tsubu::ghosts_add::least}>
     lowest{};
 inline constexpr tsubu::field<"highest", tsubu::vec<2, float>, "",

@@ -84,7 +84,7 @@ restart_state read_restart(Transport& on, const std::string& path, Store& store,
     agreement<> all(on.rank());
     all.attempt([&] {
         const restart_reader file(path);
-        file.read(store, set, keep_all{}, {.rank = on.rank(), .ranks = on.ranks()});
+        file.read(store, set, every_particle{}, {.rank = on.rank(), .ranks = on.ranks()});
         state = file.state();
     });
     on.reduce(all.words(), reduction::sum);

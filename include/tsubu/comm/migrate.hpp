@@ -15,10 +15,12 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/domain/concepts.hpp>
 #include <tsubu/domain/lattice.hpp>
+#include <tsubu/domain/points.hpp>
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
-#include <algorithm>  // std::max, std::min, std::sort
+#include <algorithm>  // std::count, std::is_sorted, std::max, std::min, std::sort
+#include <array>      // std::array
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <limits>     // std::numeric_limits
@@ -55,13 +57,27 @@ namespace detail {
 struct leaver {
     rank_t to;
     index_t index;
-    friend constexpr auto operator<=>(const leaver&, const leaver&) noexcept = default;
 };
+
+/// By rank; those of one rank stay in their order. O(n) for each byte of a rank number, none if they are in order.
+inline void sort_by_rank(std::vector<leaver>& all, std::size_t ranks) {
+    const auto by_rank = [](const leaver& a, const leaver& b) { return a.to < b.to; };
+    if (std::is_sorted(all.begin(), all.end(), by_rank)) return;
+    std::vector<leaver> sorted(all.size());
+    for (unsigned bits = 0; (static_cast<std::uint64_t>(ranks - 1) >> bits) != 0; bits += 8) {
+        std::array<std::size_t, 257> begins{};  // of the leavers with each byte
+        for (const auto& one : all) ++begins[((one.to >> bits) & 255U) + 1];
+        for (std::size_t k = 1; k < begins.size(); ++k) begins[k] += begins[k - 1];
+        for (const auto& one : all) sorted[begins[(one.to >> bits) & 255U]++] = one;
+        all.swap(sorted);
+    }
+}
 
 template <class Store, class Parts>
 class migrator {
     using frame_type = frame<Store, typename Parts::box_type>;
     using position_type = typename Parts::position_type;
+    using points_type = points<Parts::dimension, const typename Parts::scalar_type>;
 
 public:
     migrator(Store& store, const Parts& parts, rank_t rank) : store_(store), parts_(parts), rank_(rank) {}
@@ -71,30 +87,42 @@ public:
     void find(OnLost& on_lost) {
         const auto mine = parts_.subdomain(rank_);
         const auto position = store_.owned()[frame_type::position];
-        std::vector<index_t> outside(store_.owned_count());
-        outside.resize(positions_outside(mine, position, outside));
+        buffer<index_t> outside(store_.owned_count(), {});
+        const auto count = positions_outside(mine, position, outside);
+        if (count == 0) return;
+        std::vector<position_type> at;  // side by side, for the batched predicates
+        at.reserve(count);
+        for (std::size_t k = 0; k < count; ++k) at.push_back(position[static_cast<std::size_t>(outside[k])]);
+        const auto points_at = points_type(std::span<const position_type>(at));
         // First look, then touch: what throws leaves the store as it was.
         std::vector<std::pair<index_t, wrapped_type>> moved;
-        for (const auto i : outside) {
-            const auto& x = position[static_cast<std::size_t>(i)];
-            if (parts_.whole().contains(x)) {
-                add(i, x);
-                continue;
-            }
-            auto fresh = wrap(i, x);
+        std::vector<unsigned char> is_inside(count);
+        see_inside(points_at, is_inside);
+        moved.reserve(static_cast<std::size_t>(std::count(is_inside.begin(), is_inside.end(), 0)));
+        for (std::size_t k = 0; k < count; ++k) {
+            if (is_inside[k] != 0) continue;
+            auto fresh = wrap(outside[k], at[k]);
+            is_inside[k] = 1;
             if (!parts_.whole().contains(fresh.position)) {
-                lost_.push_back(i);
-                if constexpr (std::is_same_v<OnLost, clamp_lost>)
+                lost_.push_back(outside[k]);
+                if constexpr (std::is_same_v<OnLost, clamp_lost>) {
                     fresh.position = clamped(fresh.position);
-                else
+                } else {
+                    is_inside[k] = 0;
                     continue;
+                }
             }
-            moved.emplace_back(i, fresh);
-            add(i, fresh.position);
+            at[k] = fresh.position;
+            moved.emplace_back(outside[k], fresh);
         }
         if constexpr (std::is_same_v<OnLost, refuse_lost>) refuse_if_lost(position);
         static_cast<void>(on_lost);
-        std::sort(leavers_.begin(), leavers_.end());
+        std::vector<rank_t> owners(count);
+        parts_.owner(points_at, owners);
+        leavers_.reserve(count);
+        for (std::size_t k = 0; k < count; ++k)
+            if (is_inside[k] != 0 && owners[k] != rank_) leavers_.push_back({owners[k], outside[k]});
+        sort_by_rank(leavers_, parts_.ranks());
         for (const auto& [i, fresh] : moved) frame_type::settle(store_, parts_.whole(), i, fresh);
     }
     /// Packs the leavers of each rank: their number, then they.
@@ -148,9 +176,9 @@ private:
     using wrapped_type = wrapped<Parts::dimension, typename Parts::scalar_type>;
 
     template <class Mine, class Column>
-    static std::size_t positions_outside(const Mine& mine, const Column& position, std::vector<index_t>& outside) {
+    static std::size_t positions_outside(const Mine& mine, const Column& position, buffer<index_t>& outside) {
         if constexpr (requires { position.span(); }) {
-            return mine.leavers(points<Parts::dimension, const typename Parts::scalar_type>(position.span()), outside);
+            return mine.leavers(points_type(position.span()), std::span<index_t>(outside.data(), outside.size()));
         } else {
             std::size_t found = 0;
             for (std::size_t i = 0; i < position.size(); ++i)
@@ -158,8 +186,12 @@ private:
             return found;
         }
     }
-    void add(index_t i, const position_type& x) {
-        if (const auto to = parts_.owner(x); to != rank_) leavers_.push_back({to, i});
+    void see_inside(const points_type& at, std::span<unsigned char> mask) const {
+        const auto& box = parts_.whole();
+        if constexpr (requires { box.contains(at, mask); })
+            box.contains(at, mask);
+        else
+            for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = box.contains(at[k]) ? 1 : 0;
     }
     [[nodiscard]] wrapped_type wrap(index_t i, const position_type& x) const {
         try {

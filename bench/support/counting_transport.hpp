@@ -48,6 +48,7 @@ public:
     [[nodiscard]] tsubu::mailbox gather(std::span<const std::uint64_t> words) { return on_->gather(words); }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) { return on_->sum_before(n); }
     [[nodiscard]] int next_tag() noexcept { return on_->next_tag(); }
+    [[nodiscard]] tsubu::message_memory& memory() noexcept { return on_->memory(); }
 
     class channel {
     public:

@@ -9,6 +9,7 @@
 #include <tsubu/comm/detail/rank_checks.hpp>
 #include <tsubu/comm/halo_pattern.hpp>
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/expects.hpp>
@@ -155,7 +156,7 @@ private:
     void make_step(Store& store, const Parts& parts, Transport& on, const halo_step<Parts>& step,
                    const std::vector<std::size_t>& begins) {
         round_type next(*box_, on);
-        std::vector<std::uint64_t> words;
+        message_memory::array<std::uint64_t> words;
         try {
             detail::agreed_exchange(
                 on, "make_halo",

@@ -111,7 +111,7 @@ private:
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:
-    local_transport(detail::meeting_place& place, rank_t rank) noexcept : place_(&place), rank_(rank) {}
+    local_transport(detail::meeting_place& place, rank_t rank) : place_(&place), rank_(rank) {}
 
     [[nodiscard]] rank_t rank() const noexcept { return rank_; }
     [[nodiscard]] std::size_t ranks() const noexcept { return place_->ranks(); }
@@ -119,7 +119,7 @@ public:
     /// @throws input_error if there is no such rank, before any message: the others then get a lost_rank_error.
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
         for (const auto& one : parcels) detail::check_parcel("local_transport::exchange", one, ranks());
-        mailbox came;
+        mailbox came(memory_);
         together({parcels, sums, {}}, [&] {
             for (std::size_t from = 0; from < ranks(); ++from)
                 for (const auto& one : place_->at(from).parcels)
@@ -135,7 +135,7 @@ public:
         together({{}, {}, numbers}, [&] { return reduced<double>(numbers.size(), how); }, numbers);
     }
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
-        mailbox came;
+        mailbox came(memory_);
         together({{}, words, {}}, [&] {
             for (std::size_t from = 0; from < ranks(); ++from)
                 came.add(parcel{static_cast<rank_t>(from), place_->at(from).words});
@@ -152,6 +152,7 @@ public:
         return sum;
     }
     [[nodiscard]] int next_tag() noexcept { return tag_++; }
+    [[nodiscard]] message_memory& memory() noexcept { return memory_; }
 
     /// See transport.
     class channel {
@@ -251,6 +252,7 @@ private:
     detail::meeting_place* place_;
     rank_t rank_;
     int tag_ = 0;
+    message_memory memory_;
 };
 static_assert(transport<local_transport>);
 

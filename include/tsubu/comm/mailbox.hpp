@@ -3,7 +3,7 @@
 /// parcel and mailbox: words for a rank, and what came from ranks.
 #pragma once
 
-#include <tsubu/core/buffer.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/core/types.hpp>
 
 #include <algorithm>  // std::copy_n, std::sort
@@ -26,6 +26,10 @@ struct parcel {
 ///     for (const auto& [rank, words] : on.exchange(parcels, {})) ...
 class mailbox {
 public:
+    mailbox() = default;
+    /// @param from  what its words lie in
+    explicit mailbox(message_memory from) noexcept : memory_(std::move(from)) {}
+
     [[nodiscard]] std::size_t size() const noexcept { return letters_.size(); }
     [[nodiscard]] bool empty() const noexcept { return letters_.empty(); }
     [[nodiscard]] parcel operator[](std::size_t k) const& noexcept {
@@ -59,10 +63,10 @@ public:
 
     /// For transports: room for a parcel, to be filled. Ends what is left of earlier answers.
     [[nodiscard]] std::span<std::uint64_t> add(rank_t from, std::size_t words) {
-        letters_.push_back({from, letters_.size(), buffer<std::uint64_t>(words, {})});
+        add(from, memory_.take<std::uint64_t>(words));
         return {letters_.back().words.data(), words};
     }
-    void add(rank_t from, buffer<std::uint64_t>&& words) {
+    void add(rank_t from, message_memory::array<std::uint64_t>&& words) {
         letters_.push_back({from, letters_.size(), std::move(words)});
     }
     /// A parcel with these words.
@@ -81,9 +85,10 @@ private:
     struct letter {
         rank_t from;
         std::size_t number;  // in the order of arrival
-        buffer<std::uint64_t> words;
+        message_memory::array<std::uint64_t> words;
     };
 
+    message_memory memory_;
     std::vector<letter> letters_;
 };
 

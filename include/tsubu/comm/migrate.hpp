@@ -8,8 +8,8 @@
 #include <tsubu/comm/detail/frame.hpp>
 #include <tsubu/comm/detail/rows.hpp>
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/transport.hpp>
-#include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
@@ -19,12 +19,12 @@
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
-#include <algorithm>  // std::count, std::is_sorted, std::max, std::min, std::sort
+#include <algorithm>  // std::count, std::is_sorted, std::max, std::min
 #include <array>      // std::array
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <limits>     // std::numeric_limits
-#include <new>        // std::bad_alloc
+#include <new>        // std::bad_alloc, placement
 #include <span>       // std::span
 #include <string>     // std::string
 #include <type_traits>  // std::is_same_v
@@ -60,10 +60,10 @@ struct leaver {
 };
 
 /// By rank; those of one rank stay in their order. O(n) for each byte of a rank number, none if they are in order.
-inline void sort_by_rank(std::vector<leaver>& all, std::size_t ranks) {
+inline void sort_by_rank(message_memory::array<leaver>& all, std::size_t ranks, message_memory& memory) {
     const auto by_rank = [](const leaver& a, const leaver& b) { return a.to < b.to; };
     if (std::is_sorted(all.begin(), all.end(), by_rank)) return;
-    std::vector<leaver> sorted(all.size());
+    auto sorted = memory.take<leaver>(all.size());
     for (unsigned bits = 0; (static_cast<std::uint64_t>(ranks - 1) >> bits) != 0; bits += 8) {
         std::array<std::size_t, 257> begins{};  // of the leavers with each byte
         for (const auto& one : all) ++begins[((one.to >> bits) & 255U) + 1];
@@ -80,28 +80,31 @@ class migrator {
     using points_type = points<Parts::dimension, const typename Parts::scalar_type>;
 
 public:
-    migrator(Store& store, const Parts& parts, rank_t rank) : store_(store), parts_(parts), rank_(rank) {}
+    migrator(Store& store, const Parts& parts, rank_t rank, message_memory& memory)
+        : store_(store), parts_(parts), rank_(rank), memory_(memory) {}
 
     /// Finds who leaves; wraps those that are outside, and settles those that no wrap brings inside.
     template <class OnLost>
     void find(OnLost& on_lost) {
         const auto mine = parts_.subdomain(rank_);
         const auto position = store_.owned()[frame_type::position];
-        buffer<index_t> outside(store_.owned_count(), {});
+        auto outside = memory_.take<index_t>(store_.owned_count());
         const auto count = positions_outside(mine, position, outside);
         if (count == 0) return;
-        std::vector<position_type> at;  // side by side, for the batched predicates
-        at.reserve(count);
-        for (std::size_t k = 0; k < count; ++k) at.push_back(position[static_cast<std::size_t>(outside[k])]);
+        auto at = memory_.take<position_type>(count);  // side by side, for the batched predicates
+        for (std::size_t k = 0; k < count; ++k) at[k] = position[static_cast<std::size_t>(outside[k])];
         const auto points_at = points_type(std::span<const position_type>(at));
         // First look, then touch: what throws leaves the store as it was.
-        std::vector<std::pair<index_t, wrapped_type>> moved;
-        std::vector<unsigned char> is_inside(count);
-        see_inside(points_at, is_inside);
-        moved.reserve(static_cast<std::size_t>(std::count(is_inside.begin(), is_inside.end(), 0)));
+        auto is_inside = memory_.take<unsigned char>(count);
+        see_inside(points_at, is_inside.first(count));
+        const auto beyond = static_cast<std::size_t>(std::count(is_inside.begin(), is_inside.end(), 0));
+        auto moved = memory_.take<moved_particle>(beyond);
+        std::size_t moved_count = 0;
         for (std::size_t k = 0; k < count; ++k) {
             if (is_inside[k] != 0) continue;
-            auto fresh = wrap(outside[k], at[k]);
+            // Made where it is to stay: to copy what was just written, number by number, in wider pieces would stall.
+            auto& fresh = (::new (static_cast<void*>(&moved[moved_count]))
+                               moved_particle{outside[k], wrap(outside[k], at[k])})->to;
             is_inside[k] = 1;
             if (!parts_.whole().contains(fresh.position)) {
                 lost_.push_back(outside[k]);
@@ -113,28 +116,37 @@ public:
                 }
             }
             at[k] = fresh.position;
-            moved.emplace_back(outside[k], fresh);
+            ++moved_count;
         }
         if constexpr (std::is_same_v<OnLost, refuse_lost>) refuse_if_lost(position);
         static_cast<void>(on_lost);
-        std::vector<rank_t> owners(count);
-        parts_.owner(points_at, owners);
-        leavers_.reserve(count);
-        for (std::size_t k = 0; k < count; ++k)
-            if (is_inside[k] != 0 && owners[k] != rank_) leavers_.push_back({owners[k], outside[k]});
-        sort_by_rank(leavers_, parts_.ranks());
-        for (const auto& [i, fresh] : moved) frame_type::settle(store_, parts_.whole(), i, fresh);
+        auto owners = memory_.take<rank_t>(count);
+        parts_.owner(points_at, owners.first(count));
+        leavers_ = memory_.take<leaver>(count);
+        gone_ = memory_.take<index_t>(count);
+        std::size_t leaving = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool is_lost = is_inside[k] == 0;
+            leavers_[leaving] = {owners[k], outside[k]};
+            gone_[gone_count_] = outside[k];
+            leaving += !is_lost && owners[k] != rank_ ? 1U : 0U;
+            gone_count_ += is_lost || owners[k] != rank_ ? 1U : 0U;
+        }
+        leavers_.shrink(leaving);
+        sort_by_rank(leavers_, parts_.ranks(), memory_);
+        for (std::size_t k = 0; k < moved_count; ++k)
+            frame_type::settle(store_, parts_.whole(), moved[k].index, moved[k].to);
     }
     /// Packs the leavers of each rank: their number, then they.
     void pack_leavers() {
         constexpr typename Store::fields_type set{};
-        indices_.reserve(leavers_.size());
-        for (const auto& one : leavers_) indices_.push_back(one.index);
+        indices_ = memory_.take<index_t>(leavers_.size());
+        for (std::size_t k = 0; k < leavers_.size(); ++k) indices_[k] = leavers_[k].index;
         std::size_t words = 0;
         each_destination([&](rank_t, std::span<const index_t> chosen) {
             words += 1 + packed_words(store_, set, chosen);
         });
-        words_ = buffer<std::uint64_t>(words, {});
+        words_ = memory_.take<std::uint64_t>(words);
         std::size_t at = 0;
         each_destination([&](rank_t to, std::span<const index_t> chosen) {
             words_[at] = chosen.size();
@@ -153,7 +165,7 @@ public:
         constexpr typename Store::fields_type set{};
         std::size_t count = 0;
         for (const auto& [from, words] : came) count += static_cast<std::size_t>(words[0]);
-        auto first = store_.add_owned(count);
+        auto first = store_.add_owned(count, set);
         received_ = count;
         for (const auto& [from, words] : came) {
             const auto here = static_cast<std::size_t>(words[0]);
@@ -164,19 +176,17 @@ public:
     /// Undoes unpack_arrivals.
     void drop_arrivals() { drop_rows(store_, before_); }
     /// Those that have gone leave their places to the last ones.
-    template <class OnLost>
-    void remove_leavers() {
-        auto& gone = indices_;
-        if constexpr (!std::is_same_v<OnLost, clamp_lost>) gone.insert(gone.end(), lost_.begin(), lost_.end());
-        std::sort(gone.begin(), gone.end());
-        for (auto k = gone.size(); k-- > 0;) store_.swap_remove(static_cast<std::size_t>(gone[k]));
-    }
+    void remove_gone() { store_.remove(gone_.first(gone_count_)); }
 
 private:
     using wrapped_type = wrapped<Parts::dimension, typename Parts::scalar_type>;
+    struct moved_particle {
+        index_t index;
+        wrapped_type to;
+    };
 
     template <class Mine, class Column>
-    static std::size_t positions_outside(const Mine& mine, const Column& position, buffer<index_t>& outside) {
+    static std::size_t positions_outside(const Mine& mine, const Column& position, message_memory::array<index_t>& outside) {
         if constexpr (requires { position.span(); }) {
             return mine.leavers(points_type(position.span()), std::span<index_t>(outside.data(), outside.size()));
         } else {
@@ -247,18 +257,21 @@ private:
     void each_destination(Body&& body) const {
         for (std::size_t first = 0, end = 0; first < leavers_.size(); first = end) {
             while (end < leavers_.size() && leavers_[end].to == leavers_[first].to) ++end;
-            body(leavers_[first].to, std::span(indices_).subspan(first, end - first));
+            body(leavers_[first].to, std::span<const index_t>(indices_).subspan(first, end - first));
         }
     }
 
     Store& store_;
     const Parts& parts_;
     rank_t rank_;
+    message_memory& memory_;
     std::size_t before_ = store_.owned_count();
-    std::vector<leaver> leavers_;
+    message_memory::array<leaver> leavers_;
+    message_memory::array<index_t> indices_;  // of the leavers
+    message_memory::array<index_t> gone_;     // these and the lost ones, as they lie in the store
+    std::size_t gone_count_ = 0;
     std::vector<index_t> lost_;
-    std::vector<index_t> indices_;  // of the leavers
-    buffer<std::uint64_t> words_;
+    message_memory::array<std::uint64_t> words_;
     std::vector<parcel> parcels_;
     std::size_t received_ = 0;
 };
@@ -285,7 +298,7 @@ private:
 template <class Store, decomposition Parts, transport Transport, class OnLost = refuse_lost>
 migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}) {
     store.clear_ghosts();
-    detail::migrator<Store, Parts> work(store, parts, on.rank());
+    detail::migrator<Store, Parts> work(store, parts, on.rank(), on.memory());
     enum : std::size_t { sent, lost };
     agreement<2> before(on.rank());
     before.attempt([&] {
@@ -323,7 +336,7 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
                                        " have come",
                                    "the transport loses messages; nothing was done on any rank");
     }
-    work.template remove_leavers<OnLost>();
+    work.remove_gone();
     return {work.sent(), work.received(), work.lost().size()};
 }
 

@@ -7,9 +7,9 @@
 #include <tsubu/comm/detail/include_mpi.hpp>
 #include <tsubu/comm/detail/own_communicator.hpp>
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/mpi_error.hpp>
 #include <tsubu/comm/transport.hpp>
-#include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
@@ -103,11 +103,11 @@ public:
         for (const auto& one : parcels) detail::check_parcel("mpi_transport::exchange", one, ranks());
         // Who is through may begin the next exchange, while another still looks for messages of this one.
         const int tag = exchange_tag + std::exchange(parity_, 1 - parity_);
-        incoming came;
+        incoming came{mailbox(memory_), {}, false};
         std::vector<MPI_Request> sends;
         for (const auto& one : parcels)
             if (one.rank == rank())
-                came.from_here.add(one);
+                came.box.add(one);
             else
                 each_piece(one.words, [&](std::span<const std::uint64_t> piece) {
                     check_mpi(MPI_Issend(piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
@@ -160,7 +160,7 @@ public:
         check_mpi(MPI_Allgatherv(words.data(), static_cast<int>(mine), MPI_UINT64_T, all.data(), lengths.data(),
                                  places.data(), MPI_UINT64_T, own_.get()),
                   "MPI_Allgatherv");
-        mailbox came;
+        mailbox came(memory_);
         for (std::size_t k = 0; k < ranks(); ++k)
             came.add(parcel{static_cast<rank_t>(k),
                             std::span(all).subspan(static_cast<std::size_t>(places[k]),
@@ -176,6 +176,7 @@ public:
         constexpr int tags = 32767 - first_channel_tag;  // every implementation has so many
         return first_channel_tag + std::exchange(channels_, (channels_ + 1) % tags);
     }
+    [[nodiscard]] message_memory& memory() noexcept { return memory_; }
 
     /// See transport.
     class channel {
@@ -245,13 +246,13 @@ private:
         struct piece {
             rank_t from;
             std::size_t number;  // in the order of arrival
-            buffer<std::uint64_t> words;
+            message_memory::array<std::uint64_t> words;
         };
-        mailbox from_here;
+        mailbox box;  // of parcels of this rank to itself; in the end of all
         std::vector<piece> pieces;  // of one sender in their order
-        bool has_no_room = false;
+        bool has_no_room;
     };
-    void receive_one(int tag, incoming& came) const {
+    void receive_one(int tag, incoming& came) {
         int found = 0;
         MPI_Message message = MPI_MESSAGE_NULL;
         MPI_Status status;
@@ -261,7 +262,7 @@ private:
         check_mpi(MPI_Get_count(&status, MPI_UINT64_T, &count), "MPI_Get_count");
         try {
             came.pieces.push_back({static_cast<rank_t>(status.MPI_SOURCE), came.pieces.size(),
-                                   buffer<std::uint64_t>(static_cast<std::size_t>(count), {})});
+                                   memory_.take<std::uint64_t>(static_cast<std::size_t>(count))});
         } catch (const std::bad_alloc&) {
             // It is taken and thrown away, or its sender would wait for ever.
             came.has_no_room = true;
@@ -277,7 +278,7 @@ private:
         std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
             return a.from != b.from ? a.from < b.from : a.number < b.number;
         });
-        mailbox box = std::move(came.from_here);
+        mailbox box = std::move(came.box);
         for (std::size_t first = 0, last = 0; first < pieces.size(); first = last + 1) {
             std::size_t words = 0;
             for (last = first; pieces[last].words.size() == most_words_; ++last) words += most_words_;
@@ -302,6 +303,7 @@ private:
 
     detail::own_communicator own_;
     std::size_t most_words_;
+    message_memory memory_;
     int parity_ = 0;
     int channels_ = 0;
 };

@@ -28,7 +28,7 @@ public:
 
     /// @throws input_error if a parcel is for another rank.
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t>) {
-        mailbox came;
+        mailbox came(memory_);
         for (const auto& one : parcels) {
             detail::check_parcel("self_transport::exchange", one, ranks());
             came.add(one);
@@ -38,12 +38,13 @@ public:
     template <class Number>
     void reduce(std::span<Number>, reduction) noexcept {}
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
-        mailbox came;
+        mailbox came(memory_);
         came.add(parcel{0, words});
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t) noexcept { return 0; }
     [[nodiscard]] int next_tag() noexcept { return 0; }
+    [[nodiscard]] message_memory& memory() noexcept { return memory_; }
 
     /// There is no other rank to bring anything to.
     class channel {
@@ -54,6 +55,9 @@ public:
         void start() noexcept {}
         void finish() noexcept {}
     };
+
+private:
+    message_memory memory_;
 };
 static_assert(transport<self_transport>);
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
@@ -47,7 +48,8 @@ public:
 ///  5. channel(on, tag, out, in) brings words(out) of this rank to the others with every start(), and has theirs in
 ///     words(in) after finish(). Both are laid out lane by lane; the words that go out are left alone in between. Ranks
 ///     make matching channels, with one tag, and start them in the same order; next_tag() is the same on all ranks.
-///     A lane has another rank than this one.
+///     A lane has another rank than this one;
+///  6. memory() is what messages of this rank are made in; not collective.
 /// A rank that has thrown is waited for by none: see agreement for errors that all ranks are to learn of.
 template <class Transport>
 concept transport = requires(Transport& on, const Transport& here, std::span<const parcel> parcels,
@@ -62,6 +64,7 @@ concept transport = requires(Transport& on, const Transport& here, std::span<con
     { on.gather(words) } -> std::same_as<mailbox>;
     { on.sum_before(std::uint64_t{}) } -> std::same_as<std::uint64_t>;
     { on.next_tag() } -> std::same_as<int>;
+    { on.memory() } noexcept -> std::same_as<message_memory&>;
     requires std::constructible_from<typename Transport::channel, Transport&, int, std::vector<lane>,
                                      std::vector<lane>>;
     requires std::move_constructible<typename Transport::channel>;

@@ -79,13 +79,9 @@ public:
     /// them. Beyond 2^53 periods (2^24 in float) no number tells one from the next; beyond 2^63 shift stays at its end.
     /// @throws input_error if x is not finite.
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> wrap(Scalar x) const {
-        if (inside().contains(x) || (!periodic_ && detail::is_finite(x))) return {x, 0};
-        if (!detail::is_finite(x))
-            detail::raise<input_error>("axis::wrap", "the coordinate " + detail::shown(x) + " is not finite",
-                                       "find the particle with this position: it was lost before");
-        if (x >= hi_ && x - hi_ < length_) return settled(x - length_, 1);
-        if (x < lo_ && lo_ - x <= length_) return settled(x + length_, -1);
-        return wrap_from_afar(x);
+        if (inside().contains(x)) return {x, 0};
+        if (!periodic_ || !(x - hi_ < length_ && lo_ - x <= length_)) return wrap_from_afar(x);
+        return x >= hi_ ? settled(x - length_, 1) : settled(x + length_, -1);
     }
     /// Where x was before wrap, to within rounding, unless shift is at its end.
     [[nodiscard]] constexpr Scalar unwrap(wrapped_coordinate<Scalar> at) const noexcept {
@@ -115,7 +111,11 @@ private:
         return {position < lo_ ? lo_ : position, shift};
     }
     // The remainders are exact, so no digit is lost before the last addition, however far x is.
-    [[nodiscard]] wrapped_coordinate<Scalar> wrap_from_afar(Scalar x) const noexcept {
+    [[nodiscard, gnu::cold]] constexpr wrapped_coordinate<Scalar> wrap_from_afar(Scalar x) const {
+        if (!detail::is_finite(x))
+            detail::raise<input_error>("axis::wrap", "the coordinate " + detail::shown(x) + " is not finite",
+                                       "find the particle with this position: it was lost before");
+        if (!periodic_) return {x, 0};
         Scalar beyond = std::fmod(x, length_) - std::fmod(lo_, length_);
         if (beyond < 0) beyond += length_;
         if (beyond < 0) beyond += length_;

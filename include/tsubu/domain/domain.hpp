@@ -107,13 +107,13 @@ public:
     /// The image of x in the box: axis::wrap along each axis. @throws input_error if a coordinate is not finite.
     [[nodiscard]] wrapped<D, Scalar> wrap(const position_type& x) const {
         check_finite(x, [] { return std::string(); });
-        wrapped<D, Scalar> result{};
-        for (std::size_t k = 0; k < D; ++k) {
-            const auto [position, shift] = axes_[k].wrap(x[k]);
-            result.position[k] = position;
-            result.shift[k] = shift;
+        // Not a loop: see image.
+        return [&]<std::size_t... K>(std::index_sequence<K...>) {
+            return [](auto... along) {
+                return wrapped<D, Scalar>{{along.position...}, {along.shift...}};
+            }(axes_[K].wrap(x[K])...);
         }
-        return result;
+        (std::make_index_sequence<D>{});
     }
     /// Wraps each of many points where it stands, and adds to shift[i] how many periods it was away.
     /// @return how many points changed.

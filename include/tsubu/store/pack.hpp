@@ -105,11 +105,13 @@ struct packer<fields<F...>> {
             if (bonus.has_value()) put_bytes(to, &*bonus, sizeof(*bonus));
         }
     }
-    template <std::size_t K, class Field, class Column>
-    [[gnu::always_inline]] static void get_fixed(const std::uint64_t* from, const Column& column,
-                                                 std::size_t i) noexcept {
-        if constexpr (is_fixed<Field>)
+    template <std::size_t K, class Field, class Column, class Settle>
+    [[gnu::always_inline]] static void get_fixed(const std::uint64_t* from, const Column& column, std::size_t i,
+                                                 const Settle& settle) noexcept {
+        if constexpr (is_fixed<Field>) {
             std::memcpy(static_cast<void*>(&column[i]), from + place[K], sizeof(value<Field>));
+            settle(std::remove_cv_t<Field>{}, column[i]);
+        }
     }
     /// @return false if the words end before the value does, or say what cannot be.
     template <class Field, class Column>
@@ -154,13 +156,13 @@ struct packer<fields<F...>> {
         }
     }
     /// @return where the words that were read end; `first` becomes the first particle that is not whole, or `last`.
-    template <class Store, std::size_t... K>
+    template <class Store, class Settle, std::size_t... K>
     static const std::uint64_t* get_all(Store& store, std::size_t& first, std::size_t last, const std::uint64_t* from,
-                                        const std::uint64_t* end, std::index_sequence<K...>) {
+                                        const std::uint64_t* end, const Settle& settle, std::index_sequence<K...>) {
         const auto columns = std::tuple{store[std::remove_cv_t<decltype(F)>{}]...};
         for (; first < last; ++first) {
             if (static_cast<std::size_t>(end - from) < fixed) return from;
-            (get_fixed<K, decltype(F)>(from, std::get<K>(columns), first), ...);
+            (get_fixed<K, decltype(F)>(from, std::get<K>(columns), first, settle), ...);
             from += fixed;
             if constexpr (varies)
                 if (!(get_varying<decltype(F)>(from, end, std::get<K>(columns), first) && ...)) return from;
@@ -198,16 +200,17 @@ std::size_t pack(const Store& store, fields<F...> set, std::span<const index_t> 
 }
 
 /// Reads these fields of `count` particles into rows first .. first + count - 1, which exist.
+/// @param settle  settle(field, value) may change each value of a fixed size after it is read.
 /// @return the words read.
 /// @throws input_error if the words end too early; rows before the one that is not whole are read then.
-template <auto... F, class Store>
+template <auto... F, class Store, class Settle>
 std::size_t unpack(Store& store, fields<F...>, std::size_t first, std::size_t count,
-                   std::span<const std::uint64_t> in) {
+                   std::span<const std::uint64_t> in, const Settle& settle) {
     static_assert((Store::template has<decltype(F)> && ...), "the store lacks a field that is to be unpacked");
     TSUBU_EXPECTS(first + count <= store.size(), "these particles do not exist; add_owned or add_ghosts first");
     auto i = first;
     const auto* const end = detail::packer<fields<F...>>::get_all(store, i, first + count, in.data(),
-                                                                  in.data() + in.size(),
+                                                                  in.data() + in.size(), settle,
                                                                   std::index_sequence_for<decltype(F)...>{});
     if (i != first + count)
         detail::raise<input_error>("unpack",
@@ -215,6 +218,12 @@ std::size_t unpack(Store& store, fields<F...>, std::size_t first, std::size_t co
                                        " of " + std::to_string(count),
                                    "unpack the fields that were packed");
     return static_cast<std::size_t>(end - in.data());
+}
+/// The same, as the values are.
+template <auto... F, class Store>
+std::size_t unpack(Store& store, fields<F...> set, std::size_t first, std::size_t count,
+                   std::span<const std::uint64_t> in) {
+    return unpack(store, set, first, count, in, [](auto, auto&) {});
 }
 
 }  // namespace tsubu

@@ -15,6 +15,7 @@
 #include <tsubu/store/particle_range.hpp>
 #include <tsubu/store/soa.hpp>
 
+#include <algorithm>    // std::lower_bound
 #include <concepts>     // std::integral
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
@@ -207,14 +208,21 @@ public:
         return static_cast<index_t>(i);
     }
     /// `count` owned particles more, all zeros; the index of the first. As push_back.
-    std::size_t add_owned(std::size_t count) {
+    std::size_t add_owned(std::size_t count) { return add_owned(count, fields<>{}); }
+    /// The same, but what these fields hold is not set: the caller does that. Lists and bonus values begin empty.
+    template <auto... Unset>
+    std::size_t add_owned(std::size_t count, fields<Unset...> unset) {
         refuse_ghosts("particle_store::add_owned");
-        const auto first = add(count);
+        const auto first = add(count, unset);
         owned_ = size_;
         return first;
     }
     /// `count` ghosts more, all zeros; the index of the first. As push_back_ghost.
-    std::size_t add_ghosts(std::size_t count) { return add(count); }
+    std::size_t add_ghosts(std::size_t count) { return add(count, fields<>{}); }
+    template <auto... Unset>
+    std::size_t add_ghosts(std::size_t count, fields<Unset...> unset) {
+        return add(count, unset);
+    }
     /// Removes all ghosts; their memory is kept for the next.
     void clear_ghosts() noexcept { shrink(owned_); }
     /// Removes all particles; their memory is kept.
@@ -239,6 +247,34 @@ public:
             move_row(last, i);
         --owned_;
         --size_;
+        compact_if_due();
+    }
+    /// Removes owned particles: the last ones that stay move into their places, both in the order of indices.
+    /// @param gone  in ascending order, each once.
+    /// @throws input_error, and removes nothing, if there are ghosts, or `gone` is not as said.
+    /// Complexity: O(gone).
+    void remove(std::span<const index_t> gone) {
+        refuse_ghosts("particle_store::remove");
+        for (std::size_t k = 0; k < gone.size(); ++k)
+            if (gone[k] < 0 || static_cast<std::size_t>(gone[k]) >= owned_ || (k != 0 && gone[k - 1] >= gone[k]))
+                detail::raise<input_error>("particle_store::remove",
+                                           "index " + std::to_string(gone[k]) + " at place " + std::to_string(k) +
+                                               ", of " + std::to_string(owned_) + " owned particles",
+                                           "give indices from 0 to owned_count() - 1 in ascending order, each once");
+        const auto kept = owned_ - gone.size();
+        auto among_last = std::lower_bound(gone.begin(), gone.end(), kept, [](index_t i, std::size_t n) {
+            return static_cast<std::size_t>(i) < n;
+        });
+        auto to = gone.begin();
+        for (auto from = kept; from < owned_; ++from) {
+            if (among_last != gone.end() && static_cast<std::size_t>(*among_last) == from) {
+                release_row(from);
+                ++among_last;
+            } else {
+                move_row(from, static_cast<std::size_t>(*to++));
+            }
+        }
+        size_ = owned_ = kept;
         compact_if_due();
     }
     /// Particle i becomes particle order[i] of before, for all owned ones; one pass over each field.
@@ -279,6 +315,8 @@ private:
     template <std::size_t K>
     using kind_of = std::tuple_element_t<K, std::tuple<detail::stored_of<decltype(F)>...>>;
     template <std::size_t K>
+    using field_of = std::tuple_element_t<K, std::tuple<decltype(F)...>>;
+    template <std::size_t K>
     using bonus_place_of = typename kind_of<K>::type;
     static constexpr bool has_bonus = (detail::stored_of<decltype(F)>::is_bonus || ...);
     static constexpr bool has_pools = has_bonus || (detail::stored_of<decltype(F)>::is_list || ...);
@@ -311,14 +349,19 @@ private:
                                    std::to_string(count) + " particles where " + std::to_string(size_) + " are",
                                    "spread them over more ranks: one holds fewer than 2^31");
     }
-    std::size_t add(std::size_t count) {
+    template <auto... Unset>
+    std::size_t add(std::size_t count, fields<Unset...>) {
         if (count > max_index_count - size_) refuse_count(count);
         const auto needed = size_ + count;
         compact_if_due();  // ghosts that come and go with lists leave garbage
         if (needed > capacity()) reallocate(growth_.next(capacity(), needed));
         const auto first = size_;
         size_ = needed;
-        for (auto i = first; i < needed; ++i) zero_row(i);
+        each_value([&]<std::size_t K>() {
+            constexpr bool lies_outside = kind_of<K>::is_list || kind_of<K>::is_bonus;
+            if constexpr (lies_outside || !fields<Unset...>::template has<field_of<K>>)
+                for (auto i = first; i < needed; ++i) memory_.template at<K>(i) = {};
+        });
         return first;
     }
     void reallocate(std::uint64_t wanted) {
@@ -329,9 +372,6 @@ private:
     void shrink(std::size_t count) noexcept {
         for (auto i = count; i < size_; ++i) release_row(i);
         size_ = count;
-    }
-    void zero_row(std::size_t i) noexcept {
-        each_value([&]<std::size_t K>() { memory_.template at<K>(i) = {}; });
     }
     template <class... Given>
     void set([[maybe_unused]] std::size_t i, const field_value<Given>&... given) {

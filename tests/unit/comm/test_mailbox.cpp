@@ -16,7 +16,7 @@ TEST_CASE("a mailbox has parcels as they came, and sorted those of one sender st
     box.add(tsubu::parcel{0, {}});
     const auto room = box.add(2, 1);
     room[0] = 7;
-    tsubu::buffer<std::uint64_t> whole(2, {});
+    auto whole = tsubu::message_memory().take<std::uint64_t>(2);
     whole[0] = 8;
     whole[1] = 9;
     box.add(1, std::move(whole));

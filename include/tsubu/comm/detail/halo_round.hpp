@@ -7,6 +7,7 @@
 #include <tsubu/comm/detail/frame.hpp>
 #include <tsubu/comm/halo_pattern.hpp>
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
@@ -74,10 +75,10 @@ public:
         const auto position = store.all()[frame<Store, box_type>::position];
         const auto outer = outer_ones(position, parts, askers, first, last);
         const points<D, const real_type> at(outer.columns());
-        std::vector<unsigned char> mask(outer.indices.size());
+        auto mask = on_->memory().template take<unsigned char>(outer.count);
         for (const auto& asker : askers) {
             const auto begin = chosen_.size();
-            asker.near.surroundings().owns(at, mask);
+            asker.near.surroundings().owns(at, mask.first(mask.size()));
             for (std::size_t k = 0; k < mask.size(); ++k) {
                 if (mask[k] == 0) continue;
                 const auto i = outer.indices[k];
@@ -92,31 +93,30 @@ public:
     /// @param shifts  of the ghosts so far
     template <class Store>
     void pack_new(const Store& store, std::size_t owned, const std::vector<shift_type>& shifts,
-                  std::vector<std::uint64_t>& words, std::vector<parcel>& parcels) const {
+                  message_memory::array<std::uint64_t>& words, std::vector<parcel>& parcels) const {
         constexpr fields_on_creation<typename Store::fields_type> set{};
-        std::vector<std::size_t> ends;
-        for (std::size_t first = 0, last = 0; first < outgoing_.size(); first = last) {
-            while (last < outgoing_.size() && outgoing_[last].rank == outgoing_[first].rank) ++last;
-            words.push_back(last - first);
+        std::size_t size = 0;
+        each_receiver([&](std::size_t first, std::size_t last, std::span<const index_t> chosen) {
+            size += 1 + (last - first) * (D + 1) + packed_words(store, set, chosen) +
+                    (shifts.empty() ? 0 : D * chosen.size());
+        });
+        words = on_->memory().template take<std::uint64_t>(size);
+        auto* to = words.data();
+        each_receiver([&](std::size_t first, std::size_t last, std::span<const index_t> chosen) {
+            auto* const begin = to;
+            *to++ = last - first;
             for (auto k = first; k < last; ++k) {
-                put_shift(words, outgoing_[k].shift);
-                words.push_back(outgoing_[k].count);
+                put_shift(to, outgoing_[k].shift);
+                *to++ = outgoing_[k].count;
             }
-            const auto count = outgoing_[last - 1].begin + outgoing_[last - 1].count - outgoing_[first].begin;
-            const auto chosen = std::span<const index_t>(chosen_).subspan(outgoing_[first].begin, count);
-            const auto at = words.size();
-            words.resize(at + packed_words(store, set, chosen));
-            pack(store, set, chosen, std::span(words).subspan(at));
+            to += pack(store, set, chosen, {to, words.end()});
             if (!shifts.empty())
                 for (const auto i : chosen) {
                     const auto index = static_cast<std::size_t>(i);
-                    put_shift(words, index < owned ? shift_type{} : shifts[index - owned]);
+                    put_shift(to, index < owned ? shift_type{} : shifts[index - owned]);
                 }
-            parcels.push_back({outgoing_[first].rank, {}});
-            ends.push_back(words.size());
-        }
-        for (std::size_t k = 0, begin = 0; k < parcels.size(); begin = ends[k++])
-            parcels[k].words = std::span<const std::uint64_t>(words).subspan(begin, ends[k] - begin);
+            parcels.push_back({outgoing_[first].rank, {begin, to}});
+        });
     }
     /// @param[in,out] shifts  of the ghosts, to which those of the new ones are added
     template <class Store>
@@ -130,7 +130,7 @@ public:
             for (std::size_t k = 0; k < segments; ++k) {
                 const auto told = words.subspan(1 + k * segment_words, segment_words);
                 segment one{from, get_shift(told), 0, static_cast<std::size_t>(told[D])};
-                one.begin = store.add_ghosts(one.count);
+                one.begin = store.add_ghosts(one.count, fields_on_creation<typename Store::fields_type>{});
                 rest = rest.subspan(take(store, one, rest, fields_on_creation<typename Store::fields_type>{}));
                 incoming_.push_back(one);
                 shifts.insert(shifts.end(), one.count, one.shift);
@@ -185,11 +185,12 @@ public:
 private:
     // Particles that any asker may want, and where they are in the cell, a column per axis.
     struct candidates {
-        std::vector<index_t> indices;
-        std::array<std::vector<real_type>, D> x;
+        message_memory::array<index_t> indices;
+        std::array<message_memory::array<real_type>, D> x;
+        std::size_t count = 0;
         [[nodiscard]] typename points<D, const real_type>::columns columns() const noexcept {
             typename points<D, const real_type>::columns all{};
-            for (std::size_t k = 0; k < D; ++k) all[k] = x[k];
+            for (std::size_t k = 0; k < D; ++k) all[k] = x[k].first(count);
             return all;
         }
     };
@@ -208,6 +209,8 @@ private:
             hi[k] = here.hi()[k] - reach * (1 + 8 * std::numeric_limits<real_type>::epsilon());
         }
         candidates found;
+        found.indices = on_->memory().template take<index_t>(last - first);
+        for (auto& along : found.x) along = on_->memory().template take<real_type>(last - first);
         for (auto i = first; i < last; ++i) {
             const auto in_cell = box_->to_cell(position[i]);
             vec<D, real_type> at{};
@@ -216,14 +219,24 @@ private:
                 at[k] = box_->cell().along(k).to_real(in_cell[k]);
                 is_inner = is_inner && at[k] > lo[k] && at[k] < hi[k];
             }
-            if (is_inner) continue;
-            found.indices.push_back(static_cast<index_t>(i));
-            for (std::size_t k = 0; k < D; ++k) found.x[k].push_back(at[k]);
+            found.indices[found.count] = static_cast<index_t>(i);
+            for (std::size_t k = 0; k < D; ++k) found.x[k][found.count] = at[k];
+            found.count += is_inner ? 0U : 1U;
         }
         return found;
     }
-    static void put_shift(std::vector<std::uint64_t>& words, const shift_type& shift) {
-        for (const auto periods : shift) words.push_back(std::bit_cast<std::uint64_t>(periods));
+    /// body(first, last, chosen): the segments first .. last - 1 go to one rank, and are of these particles.
+    template <class Body>
+    void each_receiver(Body&& body) const {
+        for (std::size_t first = 0, last = 0; first < outgoing_.size(); first = last) {
+            while (last < outgoing_.size() && outgoing_[last].rank == outgoing_[first].rank) ++last;
+            const auto begin = outgoing_[first].begin;
+            const auto count = outgoing_[last - 1].begin + outgoing_[last - 1].count - begin;
+            body(first, last, std::span<const index_t>(chosen_).subspan(begin, count));
+        }
+    }
+    static void put_shift(std::uint64_t*& to, const shift_type& shift) noexcept {
+        for (const auto periods : shift) *to++ = std::bit_cast<std::uint64_t>(periods);
     }
     [[nodiscard]] static shift_type get_shift(std::span<const std::uint64_t> words) noexcept {
         shift_type shift{};
@@ -269,18 +282,14 @@ private:
     }
     template <class Store, auto... F>
     std::size_t take(Store& store, const segment& one, std::span<const std::uint64_t> words, fields<F...> set) const {
-        const auto used = unpack(store, set, one.begin, one.count, words);
-        (move_into_image<std::remove_cv_t<decltype(F)>>(store, one), ...);
-        return used;
-    }
-    template <class Field, class Store>
-    void move_into_image(Store& store, const segment& one) const {
-        if constexpr (changes_in_image<Field, box_type>) {
-            if (one.shift == shift_type{}) return;
-            const auto column = store[Field{}];
-            for (auto i = one.begin; i < one.begin + one.count; ++i)
-                column[i] = value_in_image<Field>(*box_, column[i], one.shift);
-        }
+        constexpr bool changes = (changes_in_image<std::remove_cv_t<decltype(F)>, box_type> || ...);
+        if constexpr (changes)
+            if (one.shift != shift_type{})
+                return unpack(store, set, one.begin, one.count, words, [&]<class Field>(Field, auto& value) {
+                    if constexpr (changes_in_image<Field, box_type>)
+                        value = value_in_image<Field>(*box_, value, one.shift);
+                });
+        return unpack(store, set, one.begin, one.count, words);
     }
     template <class Field, class Store>
     void add_to_owners(Store& store, const segment& one, const std::uint64_t* words, std::size_t record) const {

@@ -7,6 +7,7 @@
 ///
 ///     comm/sync/none/reduction/ranks:2           one empty reduction
 ///     comm/migrate/PERCENT/tsubu/ranks:2         migrate; so many of the particles of each rank leave: 0, 1, 10, 50
+///     comm/migrate/PERCENT/hand/ranks:2          loops, lists and MPI_Sendrecv, for this row of cubes and these fields alone
 ///     comm/migrate/PERCENT/raw/ranks:2           MPI_Sendrecv of the bytes of the leavers, from and to ready buffers
 ///     comm/moved/PERCENT/tsubu/ranks:2           bytes that migrate sends to other ranks, and those of the leavers
 ///     comm/make_halo/SIZE/direct | staged/ranks:2
@@ -151,8 +152,7 @@ public:
     departures(const world& w, std::size_t leavers) : leavers_(leavers), random_(3 + w.on.rank()) {
         for (std::size_t k = 0; k < particles_of_rank; ++k) order_.push_back(k);
     }
-    void operator()(moving_store& g) {
-        const auto x = g[tsubu::position<3>];
+    void operator()(std::span<vec<3>> x) {
         for (std::size_t k = 0; k < leavers_; ++k) {
             std::swap(order_[k], order_[k + random_.below(order_.size() - k)]);
             x[order_[k]][0] += k % 2 == 0 ? 1 : -1;
@@ -165,18 +165,99 @@ private:
     std::vector<std::size_t> order_;
 };
 
+/// What a program would have that moves these fields along this row of cubes, and nothing else: who leaves shows in
+/// one coordinate, and goes to a cube next to this one; those that come take the places of those that have gone.
+class hand_migration {
+public:
+    hand_migration(const world& w, const moving_store& g)
+        : on_(w.on.communicator()), next_(w.next()), before_(w.before()), length_(real(w.on.ranks())) {
+        const auto mine = w.row.subdomain(w.on.rank());
+        lo_ = mine.lo()[0];
+        hi_ = mine.hi()[0];
+        const auto copy = [](auto& to, auto from) { to.assign(from.begin(), from.end()); };
+        copy(t_, g[tsubu::id].span());
+        copy(x_, g[tsubu::position<3>].span());
+        copy(v_, g[tsubu::velocity<3>].span());
+        copy(m_, g[tsubu::mass].span());
+    }
+    [[nodiscard]] std::span<const std::int64_t> ids() const { return t_; }
+    [[nodiscard]] std::span<vec<3>> positions() { return x_; }
+    [[nodiscard]] std::span<const vec<3>> velocities() const { return v_; }
+
+    void operator()() {
+        places_.clear();
+        for (auto& one : out_) one.clear();
+        const bool is_one_way = next_ == before_;  // a message of all
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            if (x_[i][0] >= lo_ && x_[i][0] < hi_) continue;
+            places_.push_back(i);
+            auto x = x_[i];
+            auto& out = out_[x[0] < lo_ && !is_one_way ? 1 : 0];
+            x[0] += x[0] < 0 ? length_ : x[0] >= length_ ? -length_ : 0;
+            out.push_back({t_[i], x, v_[i], m_[i]});
+        }
+        came_.clear();
+        swap_with(next_, before_, out_[0]);
+        if (!is_one_way) swap_with(before_, next_, out_[1]);
+        std::size_t k = 0;
+        for (; k < came_.size() && k < places_.size(); ++k) put(came_[k], places_[k]);
+        for (; k < came_.size(); ++k) {
+            resize(x_.size() + 1);
+            put(came_[k], x_.size() - 1);
+        }
+        for (auto n = places_.size(); n > k; --n) {
+            const auto last = x_.size() - 1;
+            put({t_[last], x_[last], v_[last], m_[last]}, places_[n - 1]);
+            resize(last);
+        }
+    }
+
+private:
+    struct record {
+        std::int64_t t;
+        vec<3> x, v;
+        double m;
+    };
+    void put(const record& one, std::size_t i) { t_[i] = one.t, x_[i] = one.x, v_[i] = one.v, m_[i] = one.m; }
+    void resize(std::size_t n) { t_.resize(n), x_.resize(n), v_.resize(n), m_.resize(n); }
+    void swap_with(int to, int from, const std::vector<record>& out) {
+        const std::uint64_t sends = out.size();
+        std::uint64_t gets = 0;
+        MPI_Sendrecv(&sends, 1, MPI_UINT64_T, to, 4, &gets, 1, MPI_UINT64_T, from, 4, on_, MPI_STATUS_IGNORE);
+        const auto before = came_.size();
+        came_.resize(before + static_cast<std::size_t>(gets));
+        MPI_Sendrecv(out.data(), static_cast<int>(sends * sizeof(record)), MPI_BYTE, to, 5, came_.data() + before,
+                     static_cast<int>(gets * sizeof(record)), MPI_BYTE, from, 5, on_, MPI_STATUS_IGNORE);
+    }
+
+    MPI_Comm on_;
+    int next_, before_;
+    double lo_, hi_, length_;
+    std::vector<std::int64_t> t_;
+    std::vector<vec<3>> x_, v_;
+    std::vector<double> m_;
+    std::vector<std::size_t> places_;
+    std::array<std::vector<record>, 2> out_;
+    std::vector<record> came_;
+};
+
 /// What no migration changes, over all ranks; and that all is where it belongs.
-std::array<std::uint64_t, 3> sums_of(const moving_store& g, world& w) {
+std::array<std::uint64_t, 3> sums_of(std::span<const std::int64_t> ids, std::span<const vec<3>> x,
+                                     std::span<const vec<3>> v, world& w) {
     std::array<std::uint64_t, 3> sums{};
     const auto mine = w.row.subdomain(w.on.rank());
-    for (std::size_t i = 0; i < g.size(); ++i) {
-        const auto name = static_cast<std::uint64_t>(g[tsubu::id][i]);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto name = static_cast<std::uint64_t>(ids[i]);
         sums[0] += name;
         sums[1] += name * name;
-        sums[2] += mine.owns(g[tsubu::position<3>][i]) && g[tsubu::velocity<3>][i][0] == g[tsubu::position<3>][i][1];
+        sums[2] += mine.owns(x[i]) && v[i][0] == x[i][1];
     }
     w.on.reduce(std::span<std::uint64_t>(sums), tsubu::reduction::sum);
     return sums;
+}
+
+std::array<std::uint64_t, 3> sums_of(const moving_store& g, world& w) {
+    return sums_of(g[tsubu::id].span(), g[tsubu::position<3>].span(), g[tsubu::velocity<3>].span(), w);
 }
 
 void run_migrate(world& w, std::size_t percent) {
@@ -189,7 +270,7 @@ void run_migrate(world& w, std::size_t percent) {
     counting_transport counted(w.on);
     const auto sums = sums_of(*g, w);
     expect(sums[2] == particles_of_rank * w.on.ranks(), "particles begin on wrong ranks");
-    (*leave)(*g);
+    (*leave)((*g)[tsubu::position<3>].span());
     const auto done = tsubu::migrate(*g, w.row, counted);
     expect(done.sent == (w.on.ranks() == 1 ? 0 : leavers) && g->size() == particles_of_rank,
            "migrate has sent another number of particles");
@@ -199,9 +280,18 @@ void run_migrate(world& w, std::size_t percent) {
                                                             {"leaver_bytes", real(64 * leavers)},
                                                             {"messages", real(counted.sent().messages)}});
 
+    const auto by_hand = std::make_shared<hand_migration>(w, *g);
+    const auto leave_by_hand = std::make_shared<departures>(w, leavers);
+    (*leave_by_hand)(by_hand->positions());
+    (*by_hand)();
+    expect(sums_of(by_hand->ids(), by_hand->positions(), by_hand->velocities(), w) == sums,
+           "the migration by hand has changed, lost or misplaced particles");
+
     std::vector<collective_contender> all;
-    all.push_back({w.named("migrate", what, "tsubu"), [=] { (*leave)(*g); },
+    all.push_back({w.named("migrate", what, "tsubu"), [=] { (*leave)((*g)[tsubu::position<3>].span()); },
                    [=, &w] { tsubu::migrate(*g, w.row, w.on); }});
+    all.push_back({w.named("migrate", what, "hand"), [=] { (*leave_by_hand)(by_hand->positions()); },
+                   [=] { (*by_hand)(); }});
     if (leavers == 0) {
         all.push_back({w.named("sync", "none", "reduction"), {}, [&w] {
                            std::uint64_t nothing[1] = {0};

@@ -244,6 +244,7 @@ public:
             case 0:
                 return add();
             case 1:
+                if (random_.below(2) == 0) return remove_some();
                 g_.swap_remove(i);
                 model_[i] = model_.back();
                 return model_.pop_back();
@@ -350,6 +351,18 @@ private:
         g_.push_back(tsubu::id = next_, tsubu::radius = 0.25 * static_cast<double>(next_));
         model_.push_back({next_, {}, {}, 0.25 * static_cast<double>(next_), {}});
         ++next_;
+    }
+    void remove_some() {
+        std::vector<tsubu::index_t> gone;
+        for (std::size_t i = 0; i < model_.size(); ++i)
+            if (random_.below(16) == 0) gone.push_back(static_cast<tsubu::index_t>(i));
+        g_.remove(gone);
+        const auto kept = model_.size() - gone.size();
+        auto hole = gone.begin();
+        for (auto from = kept; from < model_.size(); ++from)
+            if (std::find(gone.begin(), gone.end(), static_cast<tsubu::index_t>(from)) == gone.end())
+                model_[static_cast<std::size_t>(*hole++)] = model_[from];
+        model_.resize(kept);
     }
     /// On the particles from the lesser index on up to the greater.
     void algorithm(std::size_t i, std::size_t j) {

@@ -187,6 +187,56 @@ TEST_CASE("the last particle moves into the hole", "[store]") {
     CHECK_THROWS_AS(g.swap_remove(0), tsubu::input_error);
 }
 
+TEST_CASE("several leave at once, and the last ones that stay take their places in order", "[store]") {
+    tsubu::particle_store<set> g;
+    for (std::int64_t t = 0; t < 8; ++t) {
+        const auto i = static_cast<std::size_t>(g.push_back(tsubu::id = t));
+        g[contacts][i].push_back(10 * t);
+        if (t % 2 == 0) g[charge][i].emplace(0.5 * static_cast<double>(t));
+    }
+    const std::vector<tsubu::index_t> wrong[] = {{3, 1}, {2, 2}, {-1, 3}, {5, 8}};
+    for (const auto& gone : wrong) CHECK_THROWS_AS(g.remove(gone), tsubu::input_error);
+    CHECK(says(thrown<tsubu::input_error>([&] { g.remove(wrong[0]); }), "index 1 at place 1, of 8 owned particles"));
+    CHECK(ids_of(g) == std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 6, 7});
+
+    g.remove({});
+    CHECK(g.size() == 8);
+    g.remove(std::vector<tsubu::index_t>{0, 2, 6});
+    CHECK(ids_of(g) == std::vector<std::int64_t>{5, 1, 7, 3, 4});
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        const auto t = g[tsubu::id][i];
+        CHECK(g[contacts][i].span().size() == 1);
+        CHECK(g[contacts][i].span()[0] == 10 * t);
+        CHECK(g[charge][i].has_value() == (t % 2 == 0));
+        if (t % 2 == 0) CHECK(*g[charge][i] == 0.5 * static_cast<double>(t));
+    }
+    g.push_back_ghost();
+    CHECK_THROWS_AS(g.remove(std::vector<tsubu::index_t>{0}), tsubu::input_error);
+    g.clear_ghosts();
+    g.remove(std::vector<tsubu::index_t>{0, 1, 2, 3, 4});
+    CHECK(g.empty());
+}
+TEMPLATE_TEST_CASE("rows whose fields are left unset have zeros in the others, and empty lists", "[store]", tsubu::soa,
+                   tsubu::aos, tsubu::aosoa<4>) {
+    tsubu::particle_store<set, TestType> g;
+    for (int k = 0; k < 5; ++k) {
+        const auto i = static_cast<std::size_t>(g.push_back(tsubu::id = 7, tsubu::radius = 2.0, x = {1, 1, 1}));
+        g[contacts][i].push_back(3);
+        g[charge][i].emplace(4.0);
+    }
+    g.clear();
+    const auto first = g.add_owned(3, tsubu::fields<tsubu::id, contacts, charge>{});
+    const auto ghost = g.add_ghosts(2, tsubu::fields<x>{});
+    CHECK(first == 0);
+    CHECK(ghost == 3);
+    for (std::size_t i = 0; i < 5; ++i) {
+        CHECK(g[tsubu::radius][i] == 0);
+        CHECK(g[contacts][i].span().empty());
+        CHECK(!g[charge][i].has_value());
+    }
+    for (std::size_t i = 0; i < 3; ++i) CHECK(g[x][i] == tsubu::vec<3>{});
+    for (std::size_t i = 3; i < 5; ++i) CHECK(g[tsubu::id][i] == 0);
+}
 TEMPLATE_TEST_CASE("permute, and its inverse, which brings all back", "[store]", tsubu::soa, tsubu::aos,
                    tsubu::aosoa<5>) {
     tsubu::particle_store<set, TestType> g;

@@ -128,7 +128,7 @@ private:
     friend halo<P, T> make_halo(Store& store, const P& parts, typename P::real_type cutoff, T& on,
                                 const Pattern& pattern);
 
-    explicit halo(const box_type& where) : box_(std::make_unique<const box_type>(where)) {}
+    halo() = default;
 
     template <class Store, class... Field>
     void check(const Store& store, const char* where) const {
@@ -205,20 +205,23 @@ template <class Store, decomposition Parts, transport Transport, class Pattern =
 [[nodiscard]] halo<Parts, Transport> make_halo(Store& store, const Parts& parts, typename Parts::real_type cutoff,
                                                Transport& on, const Pattern& pattern = {}) {
     store.clear_ghosts();
-    halo<Parts, Transport> made(parts.whole());
+    halo<Parts, Transport> made;
     made.owned_ = store.owned_count();
     agreement<> before(on.rank());
     std::vector<halo_step<Parts>> steps;
+    std::vector<std::size_t> begins;  // of the groups
     before.attempt([&] {
+        made.box_ = std::make_unique<const typename Parts::box_type>(parts.whole());
         detail::check_ranks("make_halo", parts.ranks(), on.ranks());
         if (!(cutoff >= 0) || !(cutoff <= (std::numeric_limits<typename Parts::real_type>::max)()))
             detail::raise<input_error>("make_halo", "the cutoff " + detail::shown(cutoff),
                                        "give a finite length of at least 0");
         steps = pattern.plan(parts, on.rank(), cutoff);
+        begins = {0, made.owned_};
+        begins.reserve(begins.size() + steps.size());
     });
     on.reduce(before.words(), reduction::sum);
     before.settle("make_halo");
-    std::vector<std::size_t> begins{0, made.owned_};  // of the groups
     for (const auto& step : steps) {
         made.make_step(store, parts, on, step, begins);
         begins.push_back(store.size());

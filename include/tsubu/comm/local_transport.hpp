@@ -5,11 +5,12 @@
 
 #include <tsubu/comm/detail/rank_checks.hpp>
 #include <tsubu/comm/mailbox.hpp>
+#include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>           // std::max, std::min
+#include <algorithm>           // std::copy, std::max, std::min
 #include <condition_variable>  // std::condition_variable
 #include <cstddef>             // std::size_t
 #include <cstdint>             // std::uint64_t
@@ -19,7 +20,7 @@
 #include <span>                // std::span
 #include <string>              // std::to_string
 #include <thread>              // std::thread
-#include <tuple>               // std::tuple
+#include <tuple>               // std::apply, std::get, std::tuple
 #include <type_traits>         // std::is_same_v
 #include <utility>             // std::move
 #include <vector>              // std::vector
@@ -111,43 +112,45 @@ private:
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:
-    local_transport(detail::meeting_place& place, rank_t rank) : place_(&place), rank_(rank) {}
+    local_transport(detail::meeting_place& place, rank_t rank) : place_(&place), rank_(rank) {
+        // What few numbers need is there: where memory is short, ranks can still tell each other.
+        std::apply([](auto&... found) { (found.reserve(64), ...); }, found_);
+    }
 
     [[nodiscard]] rank_t rank() const noexcept { return rank_; }
     [[nodiscard]] std::size_t ranks() const noexcept { return place_->ranks(); }
 
-    /// @throws input_error if there is no such rank, before any message: the others then get a lost_rank_error.
+    /// @throws input_error if there is no such rank, before any message: the others then get a lost_rank_error;
+    ///         std::bad_alloc if there is no room for what came, when the exchange is over on all ranks.
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
         for (const auto& one : parcels) detail::check_parcel("local_transport::exchange", one, ranks());
         mailbox came(memory_);
-        together({parcels, sums, {}}, [&] {
+        together({parcels, sums, {}}, [&](auto& found) {
+            reduce_into(found, sums.size(), reduction::sum);
             for (std::size_t from = 0; from < ranks(); ++from)
                 for (const auto& one : place_->at(from).parcels)
                     if (one.rank == rank_) came.add(parcel{static_cast<rank_t>(from), one.words});
-            return reduced<std::uint64_t>(sums.size(), reduction::sum);
         }, sums);
         return came;
     }
     void reduce(std::span<std::uint64_t> numbers, reduction how) {
-        together({{}, numbers, {}}, [&] { return reduced<std::uint64_t>(numbers.size(), how); }, numbers);
+        together({{}, numbers, {}}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
     }
     void reduce(std::span<double> numbers, reduction how) {
-        together({{}, {}, numbers}, [&] { return reduced<double>(numbers.size(), how); }, numbers);
+        together({{}, {}, numbers}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
     }
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
         mailbox came(memory_);
-        together({{}, words, {}}, [&] {
+        together({{}, words, {}}, [&](auto&) {
             for (std::size_t from = 0; from < ranks(); ++from)
                 came.add(parcel{static_cast<rank_t>(from), place_->at(from).words});
-            return std::vector<std::uint64_t>();
         }, std::span<std::uint64_t>());
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
         std::uint64_t sum = 0;
-        together({{}, {&n, 1}, {}}, [&] {
+        together({{}, {&n, 1}, {}}, [&](auto&) {
             for (std::size_t from = 0; from < rank_; ++from) sum += place_->at(from).words[0];
-            return std::vector<std::uint64_t>();
         }, std::span<std::uint64_t>());
         return sum;
     }
@@ -209,20 +212,20 @@ private:
     void together(detail::meeting_place::post mine, Look&& look, std::span<Number> answer) {
         place_->at(rank_) = mine;
         place_->meet();
-        std::vector<Number> found;
+        auto& found = std::get<std::vector<Number>>(found_);
+        found.clear();
         std::exception_ptr thrown;
         try {
-            found = look();
+            look(found);
         } catch (...) {  // kept: the others still look at what this rank shows
             thrown = std::current_exception();
         }
         place_->meet();
+        if (found.size() == answer.size()) std::copy(found.begin(), found.end(), answer.begin());
         if (thrown) std::rethrow_exception(thrown);
-        std::copy(found.begin(), found.end(), answer.begin());
     }
     template <class Number>
-    [[nodiscard]] std::vector<Number> reduced(std::size_t count, reduction how) const {
-        std::vector<Number> all;
+    void reduce_into(std::vector<Number>& all, std::size_t count, reduction how) const {
         for (std::size_t from = 0; from < ranks(); ++from) {
             const auto& shown = place_->at(from);
             const auto theirs = [&] {
@@ -246,13 +249,13 @@ private:
                          : how == reduction::least ? (std::min)(all[k], theirs[k])
                                                    : (std::max)(all[k], theirs[k]);
         }
-        return all;
     }
 
     detail::meeting_place* place_;
     rank_t rank_;
     int tag_ = 0;
     message_memory memory_;
+    std::tuple<std::vector<std::uint64_t>, std::vector<double>> found_;  // by the last reduction
 };
 static_assert(transport<local_transport>);
 

@@ -88,7 +88,7 @@ private:
         message_memory::array<std::uint64_t> words;
     };
 
-    message_memory memory_;
+    message_memory memory_{nullptr};
     std::vector<letter> letters_;
 };
 

@@ -5,7 +5,7 @@
 
 #include <tsubu/core/buffer.hpp>
 
-#include <cstddef>      // std::byte, std::size_t
+#include <cstddef>      // std::byte, std::max_align_t, std::nullptr_t, std::size_t
 #include <limits>       // std::numeric_limits
 #include <memory>       // std::make_shared, std::shared_ptr
 #include <new>          // std::bad_array_new_length
@@ -21,7 +21,8 @@ namespace tsubu {
 ///
 ///     auto words = on.memory().take<std::uint64_t>(count);   // uninitialised; goes back with `words`
 ///
-/// Copies are handles of one memory. What is out when the last handle goes is freed when it comes back.
+/// Copies are handles of one memory. What is out when the last handle goes is freed when it comes back. A handle of
+/// none keeps nothing.
 ///
 /// Complexity: take: O(1), and an allocation if nothing that is kept is large enough.
 /// Threads:    one at a time.
@@ -83,6 +84,8 @@ public:
     };
 
     message_memory() : shelf_(std::make_shared<shelf>()) {}
+    /// A handle of none.
+    explicit message_memory(std::nullptr_t) noexcept {}
 
     /// @throws std::bad_alloc, std::bad_array_new_length.
     template <class Value>
@@ -91,13 +94,16 @@ public:
         return {block_of(count * sizeof(Value)), count, shelf_};
     }
     /// What is kept for later; not what is out.
-    [[nodiscard]] std::size_t memory_bytes() const noexcept { return shelf_->bytes; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return shelf_ == nullptr ? 0 : shelf_->bytes; }
     /// Gives what is kept back to the system.
-    void clear() noexcept { *shelf_ = {}; }
+    void clear() noexcept {
+        if (shelf_ != nullptr) *shelf_ = {};
+    }
 
 private:
     // The smallest that is large enough; else a new one with some room for requests that grow.
     [[nodiscard]] block block_of(std::size_t bytes) {
+        if (shelf_ == nullptr) return block(bytes, {});
         auto& kept = shelf_->kept;
         auto best = kept.end();
         for (auto one = kept.begin(); one != kept.end(); ++one)

@@ -13,7 +13,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>  // std::copy, std::copy_n, std::sort
+#include <algorithm>  // std::copy, std::sort
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <limits>     // std::numeric_limits
@@ -44,9 +44,10 @@ public:
             if (one != MPI_REQUEST_NULL) MPI_Request_free(&one);
     }
     [[nodiscard]] MPI_Request& add() { return requests_.emplace_back(MPI_REQUEST_NULL); }
+    /// One after the other: MPI_Startall may start the pieces of a message in any order, and all have one tag.
     void start() {
         are_active_ = true;
-        if (!requests_.empty()) check_mpi(MPI_Startall(count(), requests_.data()), "MPI_Startall");
+        for (auto& one : requests_) check_mpi(MPI_Start(&one), "MPI_Start");
     }
     void wait() {
         if (!requests_.empty()) check_mpi(MPI_Waitall(count(), requests_.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
@@ -98,17 +99,27 @@ public:
     [[nodiscard]] MPI_Comm communicator() const noexcept { return own_.get(); }
 
     /// @throws input_error if there is no such rank, before any message; std::bad_alloc if there is no room for what
-    ///         came, when the exchange is over on all ranks; mpi_error.
+    ///         goes, and nothing has gone, or for what came, when the exchange is over on all ranks; mpi_error.
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
         for (const auto& one : parcels) detail::check_parcel("mpi_transport::exchange", one, ranks());
         // Who is through may begin the next exchange, while another still looks for messages of this one.
         const int tag = exchange_tag + std::exchange(parity_, 1 - parity_);
         incoming came{mailbox(memory_), {}, false};
         std::vector<MPI_Request> sends;
+        try {
+            std::size_t pieces = 0;
+            for (const auto& one : parcels)
+                if (one.rank == rank())
+                    came.box.add(one);
+                else
+                    pieces += one.words.size() / most_words_ + 1;
+            sends.reserve(pieces);
+        } catch (const std::bad_alloc&) {  // the others count on this rank: it takes part, and sends nothing
+            came.has_no_room = true;
+            parcels = {};
+        }
         for (const auto& one : parcels)
-            if (one.rank == rank())
-                came.box.add(one);
-            else
+            if (one.rank != rank())
                 each_piece(one.words, [&](std::span<const std::uint64_t> piece) {
                     check_mpi(MPI_Issend(piece.data(), static_cast<int>(piece.size()), MPI_UINT64_T,
                                          static_cast<int>(one.rank), tag, own_.get(),
@@ -118,9 +129,8 @@ public:
 
         // A send that was synchronous is over when its receiver has begun to take it. When those of this rank are, it
         // joins the reduction; when all ranks have joined, all messages have come.
-        std::vector<std::uint64_t> mine(sums.begin(), sums.end());
-        if (mine.empty()) mine.push_back(0);  // a reduction of nothing waits for nobody
-        std::vector<std::uint64_t> all(mine.size());
+        std::uint64_t nothing[1] = {0};
+        if (sums.empty()) sums = nothing;  // a reduction of no numbers would wait for nobody
         MPI_Request reduced = MPI_REQUEST_NULL;
         for (int done = 0; done == 0;) {
             receive_one(tag, came);
@@ -132,11 +142,10 @@ public:
             check_mpi(MPI_Testall(static_cast<int>(sends.size()), sends.data(), &sent, MPI_STATUSES_IGNORE),
                       "MPI_Testall");
             if (sent != 0)
-                check_mpi(MPI_Iallreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_UINT64_T, MPI_SUM,
-                                         own_.get(), &reduced),
+                check_mpi(MPI_Iallreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_UINT64_T,
+                                         MPI_SUM, own_.get(), &reduced),
                           "MPI_Iallreduce");
         }
-        std::copy_n(all.begin(), sums.size(), sums.begin());
         if (came.has_no_room) throw std::bad_alloc();
         return whole(came);
     }

@@ -41,7 +41,8 @@ public:
 /// the same order; a message may go to any rank, this one included.
 ///  1. exchange(parcels, sums): each parcel arrives once, whole, at its rank, which need not know of it before; the
 ///     mailbox has what came by rank of the sender, of one sender in the order of its parcels. Each of the sums becomes
-///     that over all ranks, modulo 2^64. Cost: the messages that are sent, and one reduction;
+///     that over all ranks, modulo 2^64; so they do if it throws std::bad_alloc on a rank that has no room for what
+///     goes or came. Cost: the messages that are sent, and one reduction;
 ///  2. reduce(numbers, how) makes each number the sum, the least or the greatest over all ranks, the same on all;
 ///  3. gather(words) has one parcel from each rank, in their order;
 ///  4. sum_before(n) is the sum over the ranks below this one;

@@ -67,11 +67,11 @@ TEST_CASE("forward and reverse are one message each way to each neighbour, and n
         seen.clear();
         halo.forward(here.grains, tsubu::position<3>);
         INFO("forward: " << seen.text());
-        CHECK(seen.of("Startall") == (ranks > 1 ? 1 : 0));
+        CHECK(static_cast<std::size_t>(seen.of("Start")) == halo.sent_messages() + halo.received_messages());
         CHECK(seen.of("Waitall") == (ranks > 1 ? 1 : 0));
         // The first time ways are laid, without a message.
-        CHECK((is_first || seen.but({"Startall", "Waitall"}) == 0));
-        CHECK(seen.but({"Startall", "Waitall", "Send_init", "Recv_init"}) == 0);
+        CHECK((is_first || seen.but({"Start", "Waitall"}) == 0));
+        CHECK(seen.but({"Start", "Waitall", "Send_init", "Recv_init"}) == 0);
         CHECK(seen.sent.size() == halo.sent_messages());
         CHECK(receivers().size() == halo.sent_messages());
         CHECK((ranks == 1 || bytes() % 24 == 0));
@@ -81,9 +81,9 @@ TEST_CASE("forward and reverse are one message each way to each neighbour, and n
         seen.clear();
         halo.reverse(here.grains, tsubu::force<3>);
         INFO("reverse: " << seen.text());
-        CHECK(seen.of("Startall") == (ranks > 1 ? 1 : 0));
+        CHECK(static_cast<std::size_t>(seen.of("Start")) == halo.sent_messages() + halo.received_messages());
         CHECK(seen.of("Waitall") == (ranks > 1 ? 1 : 0));
-        CHECK(seen.but({"Startall", "Waitall"}) == 0);
+        CHECK(seen.but({"Start", "Waitall"}) == 0);
         CHECK(seen.sent.size() == halo.received_messages());
         std::uint64_t sums[] = {forward_bytes, bytes()};
         here.on.reduce(std::span<std::uint64_t>(sums), tsubu::reduction::sum);
@@ -115,8 +115,9 @@ TEST_CASE("a staged halo sends two messages per axis at most", "[comm][mpi][call
     INFO(seen.text());
     CHECK(seen.sent.size() == halo.sent_messages());
     CHECK(seen.sent.size() <= 6);
-    CHECK(seen.of("Startall") == seen.of("Waitall"));
-    CHECK(seen.but({"Startall", "Waitall"}) == 0);
+    CHECK(static_cast<std::size_t>(seen.of("Start")) == halo.sent_messages() + halo.received_messages());
+    CHECK(seen.of("Waitall") <= 6);
+    CHECK(seen.but({"Start", "Waitall"}) == 0);
 }
 TEST_CASE("a migration without leavers is one reduction, and no message", "[comm][mpi][calls]") {
     scene here;

@@ -19,7 +19,7 @@
 #include <tsubu/store/pack.hpp>
 #include <tsubu/store/particle_store.hpp>
 
-#include <algorithm>  // std::count, std::is_sorted, std::max, std::min
+#include <algorithm>  // std::is_sorted, std::max, std::min
 #include <array>      // std::array
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
@@ -83,59 +83,27 @@ public:
     migrator(Store& store, const Parts& parts, rank_t rank, message_memory& memory)
         : store_(store), parts_(parts), rank_(rank), memory_(memory) {}
 
-    /// Finds who leaves; wraps those that are outside, and settles those that no wrap brings inside.
+    /// Finds who leaves; wraps those that are outside, and settles those that no wrap brings inside. What throws leaves
+    /// the store as it was.
     template <class OnLost>
-    void find(OnLost& on_lost) {
+    void find() {
         const auto mine = parts_.subdomain(rank_);
         const auto position = store_.owned()[frame_type::position];
         auto outside = memory_.take<index_t>(store_.owned_count());
-        const auto count = positions_outside(mine, position, outside);
+        outside.shrink(positions_outside(mine, position, outside));
+        const auto count = outside.size();
         if (count == 0) return;
         auto at = memory_.take<position_type>(count);  // side by side, for the batched predicates
         for (std::size_t k = 0; k < count; ++k) at[k] = position[static_cast<std::size_t>(outside[k])];
         const auto points_at = points_type(std::span<const position_type>(at));
-        // First look, then touch: what throws leaves the store as it was.
         auto is_inside = memory_.take<unsigned char>(count);
         see_inside(points_at, is_inside.first(count));
-        const auto beyond = static_cast<std::size_t>(std::count(is_inside.begin(), is_inside.end(), 0));
-        auto moved = memory_.take<moved_particle>(beyond);
-        std::size_t moved_count = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            if (is_inside[k] != 0) continue;
-            // Made where it is to stay: to copy what was just written, number by number, in wider pieces would stall.
-            auto& fresh = (::new (static_cast<void*>(&moved[moved_count]))
-                               moved_particle{outside[k], wrap(outside[k], at[k])})->to;
-            is_inside[k] = 1;
-            if (!parts_.whole().contains(fresh.position)) {
-                lost_.push_back(outside[k]);
-                if constexpr (std::is_same_v<OnLost, clamp_lost>) {
-                    fresh.position = clamped(fresh.position);
-                } else {
-                    is_inside[k] = 0;
-                    continue;
-                }
-            }
-            at[k] = fresh.position;
-            ++moved_count;
-        }
+        const auto moved = wrapped_ones<OnLost>(outside, at, is_inside);
         if constexpr (std::is_same_v<OnLost, refuse_lost>) refuse_if_lost(position);
-        static_cast<void>(on_lost);
         auto owners = memory_.take<rank_t>(count);
         parts_.owner(points_at, owners.first(count));
-        leavers_ = memory_.take<leaver>(count);
-        gone_ = memory_.take<index_t>(count);
-        std::size_t leaving = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            const bool is_lost = is_inside[k] == 0;
-            leavers_[leaving] = {owners[k], outside[k]};
-            gone_[gone_count_] = outside[k];
-            leaving += !is_lost && owners[k] != rank_ ? 1U : 0U;
-            gone_count_ += is_lost || owners[k] != rank_ ? 1U : 0U;
-        }
-        leavers_.shrink(leaving);
-        sort_by_rank(leavers_, parts_.ranks(), memory_);
-        for (std::size_t k = 0; k < moved_count; ++k)
-            frame_type::settle(store_, parts_.whole(), moved[k].index, moved[k].to);
+        list_leavers(outside, owners, is_inside);
+        for (const auto& one : moved) frame_type::settle(store_, parts_.whole(), one.index, one.to);
     }
     /// Packs the leavers of each rank: their number, then they.
     void pack_leavers() {
@@ -176,7 +144,7 @@ public:
     /// Undoes unpack_arrivals.
     void drop_arrivals() { drop_rows(store_, before_); }
     /// Those that have gone leave their places to the last ones.
-    void remove_gone() { store_.remove(gone_.first(gone_count_)); }
+    void remove_gone() { store_.remove(gone_.first(gone_.size())); }
 
 private:
     using wrapped_type = wrapped<Parts::dimension, typename Parts::scalar_type>;
@@ -185,8 +153,63 @@ private:
         wrapped_type to;
     };
 
+    template <class Value>
+    using array = message_memory::array<Value>;
+
+    // Those outside of the box, as a wrap or a clamp leaves them; is_inside stays 0 for the lost ones.
+    template <class OnLost>
+    [[nodiscard]] array<moved_particle> wrapped_ones(const array<index_t>& outside, array<position_type>& at,
+                                                     array<unsigned char>& is_inside) {
+        auto beyond = memory_.take<index_t>(at.size());
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < at.size(); ++k) {  // no branch, which nobody could foretell
+            beyond[count] = static_cast<index_t>(k);
+            count += is_inside[k] == 0 ? 1U : 0U;
+        }
+        beyond.shrink(count);
+        auto moved = memory_.take<moved_particle>(count);
+        count = 0;
+        for (const auto one : beyond) {
+            const auto k = static_cast<std::size_t>(one);
+            // Made where it is to stay: to copy what was just written, number by number, in wider pieces would stall.
+            auto& fresh = (::new (static_cast<void*>(&moved[count]))
+                               moved_particle{outside[k], wrap(outside[k], at[k])})->to;
+            is_inside[k] = 1;
+            if (!parts_.whole().contains(fresh.position)) {
+                lost_.push_back(outside[k]);
+                if constexpr (std::is_same_v<OnLost, clamp_lost>) {
+                    fresh.position = clamped(fresh.position);
+                } else {
+                    is_inside[k] = 0;
+                    continue;
+                }
+            }
+            at[k] = fresh.position;
+            ++count;
+        }
+        moved.shrink(count);
+        return moved;
+    }
+    void list_leavers(const array<index_t>& outside, const array<rank_t>& owners,
+                      const array<unsigned char>& is_inside) {
+        leavers_ = memory_.take<leaver>(outside.size());
+        gone_ = memory_.take<index_t>(outside.size());
+        std::size_t leaving = 0;
+        std::size_t going = 0;
+        for (std::size_t k = 0; k < outside.size(); ++k) {
+            const bool is_lost = is_inside[k] == 0;
+            const bool is_mine = owners[k] == rank_;
+            leavers_[leaving] = {owners[k], outside[k]};
+            gone_[going] = outside[k];
+            leaving += is_lost || is_mine ? 0U : 1U;
+            going += is_lost || !is_mine ? 1U : 0U;
+        }
+        leavers_.shrink(leaving);
+        gone_.shrink(going);
+        sort_by_rank(leavers_, parts_.ranks(), memory_);
+    }
     template <class Mine, class Column>
-    static std::size_t positions_outside(const Mine& mine, const Column& position, message_memory::array<index_t>& outside) {
+    static std::size_t positions_outside(const Mine& mine, const Column& position, array<index_t>& outside) {
         if constexpr (requires { position.span(); }) {
             return mine.leavers(points_type(position.span()), std::span<index_t>(outside.data(), outside.size()));
         } else {
@@ -266,12 +289,11 @@ private:
     rank_t rank_;
     message_memory& memory_;
     std::size_t before_ = store_.owned_count();
-    message_memory::array<leaver> leavers_;
-    message_memory::array<index_t> indices_;  // of the leavers
-    message_memory::array<index_t> gone_;     // these and the lost ones, as they lie in the store
-    std::size_t gone_count_ = 0;
+    array<leaver> leavers_;
+    array<index_t> indices_;  // of the leavers
+    array<index_t> gone_;     // these and the lost ones, as they lie in the store
     std::vector<index_t> lost_;
-    message_memory::array<std::uint64_t> words_;
+    array<std::uint64_t> words_;
     std::vector<parcel> parcels_;
     std::size_t received_ = 0;
 };
@@ -303,7 +325,7 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
     agreement<2> before(on.rank());
     before.attempt([&] {
         detail::check_ranks("migrate", parts.ranks(), on.ranks());
-        work.find(on_lost);
+        work.template find<OnLost>();
         work.pack_leavers();
     });
     if (!before.has_failed_here()) {

@@ -34,6 +34,14 @@ struct this_thread {
 };
 static_assert(executor<this_thread>);
 
+namespace detail {
+
+/// What only several threads need is not compiled for an executor that never has them.
+template <class Executor>
+inline constexpr bool may_have_threads = !std::same_as<Executor, this_thread>;
+
+}  // namespace detail
+
 /// A given number of threads, started for the call and joined at its end (about 20 us each): for loops of a
 /// millisecond and more. Those who keep a pool wrap it in the two members of the concept.
 class threads {

@@ -12,6 +12,7 @@
 #include <tsubu/core/fixed_string.hpp>
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/random.hpp>
+#include <tsubu/core/threads.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <tsubu/mpi.hpp>
+#include <tsubu/comm/halo.hpp>
+#include <tsubu/comm/migrate.hpp>
+#include <tsubu/comm/mpi_environment.hpp>
+#include <tsubu/comm/mpi_transport.hpp>
+#include <tsubu/core/random.hpp>
+#include <tsubu/domain/brick_decomposition.hpp>
+#include <tsubu/id/id_map.hpp>
+#include <tsubu/io/vtk.hpp>
+#include <tsubu/store/standard_fields.hpp>
 
 #include <string>
 

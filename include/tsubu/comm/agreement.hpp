@@ -47,7 +47,7 @@ public:
     /// What this rank adds to sum k; after the reduction the sum.
     [[nodiscard]] std::uint64_t& operator[](std::size_t k) noexcept { return words_[own_words + k]; }
     /// What is to be summed over all ranks.
-    [[nodiscard]] std::span<std::uint64_t> words() noexcept { return words_; }
+    [[nodiscard]] std::span<std::uint64_t> words() noexcept { return {words_.data(), words_.size()}; }
     /// Whether a rank has failed; after the reduction.
     [[nodiscard]] bool has_failed() const noexcept { return words_[refused] != 0 || words_[exhausted] != 0; }
     /// After the reduction. @throws on all ranks or none: on a rank that has failed what its work threw; on the others

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Who runs the parts of a loop: this thread, several threads, or a pool of the caller's own.
-/// Heaviest include: <thread>.
+/// Who runs the parts of a loop: this thread, several threads (threads.hpp), or a pool of the caller's own.
 #pragma once
 
-#include <tsubu/core/error.hpp>
+#include <tsubu/version.hpp>
 
-#include <concepts>   // std::same_as
-#include <cstddef>    // std::size_t
-#include <exception>  // std::exception
-#include <thread>     // std::thread
-#include <vector>     // std::vector
+#include <concepts>  // std::same_as
+#include <cstddef>   // std::size_t
 
 namespace tsubu {
 
@@ -34,35 +30,19 @@ struct this_thread {
 };
 static_assert(executor<this_thread>);
 
-/// A given number of threads, started for the call and joined at its end (about 20 us each): for loops of a
-/// millisecond and more. Those who keep a pool wrap it in the two members of the concept.
-class threads {
-public:
-    /// @throws input_error if count is 0.
-    explicit threads(std::size_t count) : count_(count) {
-        if (count == 0) detail::raise<input_error>("threads", "0 threads were asked for", "ask for at least 1");
-    }
-    [[nodiscard]] std::size_t concurrency() const noexcept { return count_; }
+namespace detail {
 
-    /// Part 0 runs on the calling thread. Where the system has no thread left, the calling thread runs the part.
+/// What only several threads need is not compiled for an executor that never has them.
+template <class Executor>
+inline constexpr bool may_have_threads = !std::same_as<Executor, this_thread>;
+
+/// No more than an executor: for concepts that ask for any of them.
+struct executor_archetype {
+    [[nodiscard]] std::size_t concurrency() const noexcept;
     template <class Part>
-    void run(Part&& part) const {
-        std::vector<std::thread> team;
-        std::size_t started = 1;
-        try {
-            team.reserve(count_ - 1);
-            for (; started < count_; ++started) team.emplace_back([&part, k = started] { part(k); });
-        } catch (const std::exception&) {
-            // std::system_error: no more threads. The parts that were not started run below.
-        }
-        part(std::size_t{0});
-        for (std::size_t k = started; k < count_; ++k) part(k);
-        for (auto& member : team) member.join();
-    }
-
-private:
-    std::size_t count_;
+    void run(Part&& part) const;
 };
-static_assert(executor<threads>);
+static_assert(executor<executor_archetype>);
 
+}  // namespace detail
 }  // namespace tsubu

@@ -25,7 +25,7 @@
 #include <cstdint>    // std::int32_t
 #include <span>       // std::span
 #include <string>     // std::to_string
-#include <utility>    // std::move
+#include <utility>    // std::index_sequence, std::move
 #include <vector>     // std::vector
 
 namespace tsubu {
@@ -56,24 +56,21 @@ public:
         : brick_decomposition(whole, rank_grid<D>(ranks, lengths_of(whole))) {}
     /// Equal bricks on a given grid.
     /// @throws input_error if it has 0 parts along an axis, or more than the scalar tells apart.
-    brick_decomposition(const box_type& whole, const std::array<std::size_t, D>& grid) : whole_(whole) {
-        cuts_.reserve(D);
-        for (std::size_t k = 0; k < D; ++k)
-            detail::with_axis(k, "bricks", [&] { cuts_.emplace_back(whole.along(k), grid[k]); });
+    brick_decomposition(const box_type& whole, const std::array<std::size_t, D>& grid)
+        : whole_(whole), cuts_(equal_cuts(whole, grid, std::make_index_sequence<D>{})) {
         check_ranks();
     }
     /// Given cuts, one table per axis. @throws input_error if one of them is of another axis.
-    brick_decomposition(const box_type& whole, std::array<cuts<Scalar>, D> where) : whole_(whole) {
-        cuts_.reserve(D);
+    brick_decomposition(const box_type& whole, std::array<cuts<Scalar>, D> where)
+        : whole_(whole), cuts_(std::move(where)) {
         for (std::size_t k = 0; k < D; ++k) {
-            const auto given = where[k].whole().inside();
+            const auto given = cuts_[k].whole().inside();
             const auto own = whole.along(k).inside();
             if (!(given.first == own.first) || !(given.last == own.last))
                 detail::raise<input_error>("brick_decomposition",
                                            "the cuts for axis " + std::to_string(k) + " are of an axis from " +
                                                detail::shown(given.first) + " to " + detail::shown(given.last),
                                            "make them with domain::along(k)");
-            cuts_.push_back(std::move(where[k]));
         }
         check_ranks();
     }
@@ -168,6 +165,15 @@ private:
         for (std::size_t k = 0; k < D; ++k) lengths[k] = whole.along(k).length();
         return lengths;
     }
+    template <std::size_t... K>
+    [[nodiscard]] static std::array<cuts<Scalar>, D> equal_cuts(const box_type& whole,
+                                                                const std::array<std::size_t, D>& grid,
+                                                                std::index_sequence<K...>) {
+        const auto along = [&](std::size_t k) {
+            return detail::with_axis(k, "bricks", [&] { return cuts<Scalar>(whole.along(k), grid[k]); });
+        };
+        return {along(K)...};
+    }
     void check_ranks() const {
         double product = 1;
         for (const auto& axis_cuts : cuts_) product *= static_cast<double>(axis_cuts.parts());
@@ -177,7 +183,7 @@ private:
     }
 
     box_type whole_;
-    std::vector<cuts<Scalar>> cuts_;  // [D]
+    std::array<cuts<Scalar>, D> cuts_;
 };
 static_assert(decomposition<brick_decomposition<3>> && decomposition<brick_decomposition<1, float>> &&
               decomposition<brick_decomposition<2, lattice<std::int32_t>>> &&

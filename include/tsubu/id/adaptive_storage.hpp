@@ -226,7 +226,7 @@ private:
     template <class Table, executor Executor>
     void rebuild_as(std::span<const Id> ids, id_range<Id> range, std::span<index_t> links, const Executor& on) {
         const auto build = [&](Table& table) {
-            if constexpr (parallel_rebuild<Table>)
+            if constexpr (parallel_rebuild<Table> && detail::may_have_threads<Executor>)
                 table.rebuild(ids, range, links, on);
             else
                 table.rebuild(ids, range, links);

@@ -89,16 +89,15 @@ concept prefetchable = id_storage<Storage> && requires(const Storage& storage, t
     { storage.prefetch(t) } noexcept -> std::same_as<void>;
 };
 
-/// Ability: rebuild with any executor, of which two are tried here; every answer and every link as if built by one
-/// thread.
+/// Ability: rebuild with any executor; every answer and every link as if built by one thread.
 template <class Storage>
 concept parallel_rebuild =
     id_storage<Storage> &&
     requires(Storage& storage, std::span<const typename Storage::id_type> ids,
              id_range<typename Storage::id_type> range, std::span<index_t> links, const this_thread& alone,
-             const threads& team) {
+             const detail::executor_archetype& any) {
         { storage.rebuild(ids, range, links, alone) } -> std::same_as<void>;
-        { storage.rebuild(ids, range, links, team) } -> std::same_as<void>;
+        { storage.rebuild(ids, range, links, any) } -> std::same_as<void>;
     };
 
 }  // namespace tsubu

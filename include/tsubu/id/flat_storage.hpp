@@ -257,7 +257,6 @@ private:
         spills fresh_stash(memory_.get_allocator());
         const bool keep_stash = stash_.capacity() >= plan.stash_capacity;
         if (!keep_stash) fresh_stash.reserve(plan.stash_capacity);
-        const bool threaded = on.concurrency() > 1 && ids.size() >= detail::threading_threshold;
         const auto adopt = [&]() noexcept {  // from here on nothing throws
             if (!keep) memory_.swap(fresh);
             if (!keep_stash) std::swap(stash_, fresh_stash);
@@ -271,23 +270,18 @@ private:
         };
         std::uint64_t repeated = detail::no_fit;
         with_lines(plan.lines, [&]<class Layout>(Layout) {
-            const auto fill = [&](auto&& fill_with) {
-                adopt();
-                detail::with_kernels([&]<class Kernels>(Kernels kernels) { repeated = fill_with(kernels); });
-            };
-            if (threaded) {
-                detail::team_filler<Layout, Allocator> team(on.concurrency(), plan.stash_capacity,
-                                                           memory_.get_allocator());
-                fill([&]<class Kernels>(Kernels) {
-                    return team.template fill<Kernels>(table_, stash_, ids, links, exceeds_cache(), most_spilled, on);
-                });
-            } else {
-                fill([&]<class Kernels>(Kernels) {
-                    detail::wipe(table_, lines_);
-                    return detail::fill_lines<Kernels, Layout>(table_, stash_, ids, links, exceeds_cache(),
-                                                               most_spilled);
-                });
+            if constexpr (detail::may_have_threads<Executor>) {
+                if (on.concurrency() > 1 && ids.size() >= detail::threading_threshold) {
+                    detail::team_filler<Layout, Allocator> team(on.concurrency(), plan.stash_capacity,
+                                                               memory_.get_allocator());
+                    adopt();
+                    repeated = team.fill(table_, stash_, ids, links, exceeds_cache(), most_spilled, on);
+                    return;
+                }
             }
+            adopt();
+            detail::wipe(table_, lines_);
+            repeated = detail::fill_lines<Layout>(table_, stash_, ids, links, exceeds_cache(), most_spilled);
         });
         if (repeated == detail::no_fit) {
             clear();

@@ -105,7 +105,7 @@ public:
         const auto former = same.links_.size();
         if (ids.size() > former) same.links_.resize(ids.size());
         try {
-            rebuild_storage(ids, std::span(same.links_).first(ids.size()), on);
+            rebuild_storage(ids, {same.links_.data(), ids.size()}, on);
         } catch (...) {
             same.links_.resize(former);
             throw;
@@ -243,7 +243,7 @@ void id_map<Storage>::update(std::span<const id_type> before, std::span<const id
         same.links_.resize(before.size());
         throw;
     }
-    const auto links = std::span(same.links_);
+    const auto links = std::span(same.links_.data(), same.links_.size());
     for (const auto i : changed)
         if (const auto k = static_cast<std::size_t>(i); k < before.size()) unlink(before[k], i, links);
     for (const auto i : changed)

@@ -89,7 +89,7 @@ public:
         return {links_.data(), first};
     }
     /// next(i) for every index i.
-    [[nodiscard]] std::span<const index_t> links() const noexcept { return links_; }
+    [[nodiscard]] std::span<const index_t> links() const noexcept { return {links_.data(), links_.size()}; }
     [[nodiscard]] std::size_t size() const noexcept { return links_.size(); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return links_.capacity() * sizeof(index_t); }
 

@@ -117,7 +117,7 @@ public:
         writer_.write_at(appended_, bytes);
         appended_ += bytes.size();
     }
-    void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
+    void append(std::string_view text) { append(std::as_bytes(std::span(text.data(), text.size()))); }
     /// How much was appended [bytes].
     [[nodiscard]] std::uint64_t appended() const noexcept { return appended_; }
     /// The file gets its name, and replaces what had it, once the disk has all of it. @throws file_error; the old file

@@ -3,6 +3,7 @@
 /// write_vtp, write_pvtp, write_pvd: particles for ParaView and others that read VTK's XML files.
 #pragma once
 
+#include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/io/atomic_file.hpp>
@@ -12,12 +13,11 @@
 #include <algorithm>    // std::min
 #include <bit>          // std::endian
 #include <cmath>        // std::isfinite
-#include <cstddef>      // std::size_t
+#include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::int32_t, std::uint64_t
-#include <span>         // std::as_bytes, std::span
+#include <span>         // std::span
 #include <string>       // std::string, std::to_string
 #include <string_view>  // std::string_view
-#include <vector>       // std::vector
 
 namespace tsubu {
 
@@ -37,25 +37,24 @@ public:
     vtk_writer(atomic_file& file, std::size_t count) : file_(file), count_(count) {}
 
     /// <DataArray .../> for an array of so many components per particle.
-    template <class Scalar>
-    [[nodiscard]] std::string tell(std::string_view name, std::string_view unit, std::size_t components) {
+    [[nodiscard]] std::string tell(vtk_type type, std::string_view name, std::string_view unit,
+                                   std::size_t components) {
         const auto offset = next_;
-        next_ += sizeof(std::uint64_t) + bytes<Scalar>(components);
-        return "        <DataArray type=\"" + vtk_type_name<Scalar>() + "\" Name=\"" + in_xml(name) +
+        next_ += sizeof(std::uint64_t) + std::uint64_t{type.bytes} * components * count_;
+        return "        <DataArray type=\"" + name_of(type) + "\" Name=\"" + in_xml(name) +
                "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
                std::to_string(offset) + "\"" + unit_of(unit, "DataArray");
     }
     /// Writes the array; put(to, i) writes the numbers of particle i.
     template <class Scalar, class Put>
     void write(std::size_t components, Put&& put) {
-        constexpr std::size_t some = 8192;  // particles: a chunk stays in the caches, and is worth a call of the system
-        const std::uint64_t length = bytes<Scalar>(components);
-        file_.append(std::as_bytes(std::span(&length, 1)));
-        std::vector<Scalar> chunk((std::min)(some, count_) * components);
+        const auto bytes = sizeof(Scalar) * components;  // of a particle
+        begin_array(bytes);
+        auto* const chunk = reinterpret_cast<Scalar*>(chunk_.data());
         for (std::size_t first = 0; first < count_; first += some) {
             const auto n = (std::min)(some, count_ - first);
-            for (std::size_t i = 0; i < n; ++i) put(chunk.data() + i * components, first + i);
-            file_.append(std::as_bytes(std::span(chunk).first(n * components)));
+            for (std::size_t i = 0; i < n; ++i) put(chunk + i * components, first + i);
+            file_.append({chunk_.data(), n * bytes});
         }
     }
     /// The end of an element: /> or the unit, which ParaView shows, and the closing tag.
@@ -71,14 +70,19 @@ public:
     }
 
 private:
-    template <class Scalar>
-    [[nodiscard]] std::uint64_t bytes(std::size_t components) const noexcept {
-        return std::uint64_t{sizeof(Scalar)} * components * count_;
+    static constexpr std::size_t some = 8192;  // particles: a chunk stays in the caches, and is worth a system call
+
+    void begin_array(std::size_t bytes_of_particle) {
+        const std::uint64_t length = std::uint64_t{bytes_of_particle} * count_;
+        file_.append({reinterpret_cast<const std::byte*>(&length), sizeof(length)});
+        const auto needed = (std::min)(some, count_) * bytes_of_particle;
+        if (chunk_.size() < needed) chunk_ = buffer<std::byte>(needed, {});
     }
 
     atomic_file& file_;
     std::size_t count_;
     std::uint64_t next_ = 0;
+    buffer<std::byte> chunk_;
 };
 
 }  // namespace detail
@@ -107,13 +111,13 @@ void write_vtp(const std::string& path, const Store& store, Position position) {
                std::to_string(n) + "\" NumberOfVerts=\"" + std::to_string(n) +
                "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n      <PointData>\n";
     detail::each_vtk_field<Position>(set, [&]<class Field, class Shown>(Field, Shown) {
-        xml += arrays.template tell<typename Shown::scalar>(Field::name, Field::unit, Shown::components);
+        xml += arrays.tell(detail::vtk_type_of<typename Shown::scalar>, Field::name, Field::unit, Shown::components);
     });
     xml += "      </PointData>\n      <Points>\n";  // one statement per array: each tells where the next one lies
-    xml += arrays.template tell<typename point::scalar>(Position::name, Position::unit, 3);
+    xml += arrays.tell(detail::vtk_type_of<typename point::scalar>, Position::name, Position::unit, 3);
     xml += "      </Points>\n      <Verts>\n";
-    xml += arrays.template tell<std::int32_t>("connectivity", "", 1);
-    xml += arrays.template tell<std::int32_t>("offsets", "", 1);
+    xml += arrays.tell(detail::vtk_type_of<std::int32_t>, "connectivity", "", 1);
+    xml += arrays.tell(detail::vtk_type_of<std::int32_t>, "offsets", "", 1);
     xml += "      </Verts>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n   _";
     file.append(xml);
 
@@ -140,17 +144,17 @@ void write_vtp(const std::string& path, const Store& store, Position position) {
 template <class Store, particle_field Position>
 void write_pvtp(const std::string& path, const Store&, Position, std::span<const std::string> pieces) {
     using point = detail::vtk_point<typename Position::value_type>;
-    const auto tell = [](std::string_view name, std::string_view unit, const std::string& type,
+    const auto tell = [](std::string_view name, std::string_view unit, detail::vtk_type type,
                          std::size_t components) {
-        return "      <PDataArray type=\"" + type + "\" Name=\"" + detail::in_xml(name) + "\" NumberOfComponents=\"" +
+        return "      <PDataArray type=\"" + name_of(type) + "\" Name=\"" + detail::in_xml(name) + "\" NumberOfComponents=\"" +
                std::to_string(components) + "\"" + detail::vtk_writer::unit_of(unit, "PDataArray");
     };
     auto xml = detail::vtk_writer::begin("PPolyData") + "  <PPolyData GhostLevel=\"0\">\n    <PPointData>\n";
     detail::each_vtk_field<Position>(typename Store::fields_type{}, [&]<class Field, class Shown>(Field, Shown) {
-        xml += tell(Field::name, Field::unit, detail::vtk_type_name<typename Shown::scalar>(), Shown::components);
+        xml += tell(Field::name, Field::unit, detail::vtk_type_of<typename Shown::scalar>, Shown::components);
     });
     xml += "    </PPointData>\n    <PPoints>\n" +
-           tell(Position::name, Position::unit, detail::vtk_type_name<typename point::scalar>(), 3) +
+           tell(Position::name, Position::unit, detail::vtk_type_of<typename point::scalar>, 3) +
            "    </PPoints>\n";
     for (const auto& piece : pieces) xml += "    <Piece Source=\"" + detail::in_xml(piece) + "\"/>\n";
     atomic_file file(path);

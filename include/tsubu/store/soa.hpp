@@ -16,10 +16,11 @@
 namespace tsubu {
 namespace detail {
 
-/// A cache line of values: arrays begin at one, so that vector loads do not cross lines.
-template <class Value>
-struct alignas((std::max)(std::size_t{64}, alignof(Value))) line_of {
-    unsigned char bytes[(std::max)(std::size_t{64}, alignof(Value))];
+/// A cache line of values, or more if they ask for it: arrays begin at one, so that vector loads do not cross lines. Not
+/// a template of the values: one type of buffer then serves the arrays of nearly all fields.
+template <std::size_t Alignment>
+struct alignas(Alignment) line_of {
+    unsigned char bytes[Alignment];
 };
 
 /// An array of uninitialised values that begins at a cache line.
@@ -27,17 +28,18 @@ template <class Value>
 class aligned_array {
     static_assert(std::is_trivially_copyable_v<Value>,
                   "a field holds a trivially copyable type, list_of or bonus_of one");
+    using line = line_of<(std::max)(std::size_t{64}, alignof(Value))>;
 
 public:
     aligned_array() = default;
     explicit aligned_array(std::size_t count)
-        : lines_((count * sizeof(Value) + sizeof(line_of<Value>) - 1) / sizeof(line_of<Value>), {}) {}
+        : lines_((count * sizeof(Value) + sizeof(line) - 1) / sizeof(line), {}) {}
     [[nodiscard]] Value* data() noexcept { return reinterpret_cast<Value*>(lines_.data()); }
     [[nodiscard]] const Value* data() const noexcept { return reinterpret_cast<const Value*>(lines_.data()); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return lines_.memory_bytes(); }
 
 private:
-    buffer<line_of<Value>> lines_;
+    buffer<line> lines_;
 };
 
 }  // namespace detail

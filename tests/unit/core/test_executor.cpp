@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <tsubu/core/executor.hpp>
+#include <tsubu/core/threads.hpp>
 
 #include "support/catch.hpp"
 #include "unit/thrown.hpp"

@@ -2,6 +2,7 @@
 #include <tsubu/id/dense_storage.hpp>
 
 #include <tsubu/core/random.hpp>
+#include <tsubu/core/threads.hpp>
 #include <tsubu/testing/throwing_allocator.hpp>
 
 #include "support/catch.hpp"

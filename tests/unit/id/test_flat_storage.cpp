@@ -3,6 +3,7 @@
 
 #include <tsubu/core/instruction_set.hpp>
 #include <tsubu/core/random.hpp>
+#include <tsubu/core/threads.hpp>
 #include <tsubu/testing/throwing_allocator.hpp>
 
 #include "support/catch.hpp"

@@ -5,6 +5,7 @@
 #include "unit/thrown.hpp"
 
 #include <tsubu/core/random.hpp>
+#include <tsubu/core/threads.hpp>
 #include <tsubu/id/chained_storage.hpp>
 #include <tsubu/id/dense_storage.hpp>
 #include <tsubu/id/flat_storage.hpp>

@@ -41,8 +41,9 @@ public:
         return true;
     }
     void clear() noexcept { entries_.clear(); }
-    [[nodiscard]] std::span<spilled_id> entries() noexcept { return entries_; }
-    [[nodiscard]] std::span<const spilled_id> entries() const noexcept { return entries_; }
+    // By address and size: to check that a vector is a range takes a compiler ten times as long.
+    [[nodiscard]] std::span<spilled_id> entries() noexcept { return {entries_.data(), entries_.size()}; }
+    [[nodiscard]] std::span<const spilled_id> entries() const noexcept { return {entries_.data(), entries_.size()}; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return entries_.capacity() * sizeof(spilled_id); }
     [[nodiscard]] std::size_t capacity() const noexcept { return entries_.capacity(); }
 
@@ -117,6 +118,21 @@ inline constexpr std::size_t threading_threshold = std::size_t{1} << 18;
 /// So many blocks before they are hashed, ids are asked for.
 inline constexpr std::size_t ids_ahead = 4;
 
+/// The two steps of insert_all over a block, by the best kernels of this machine. Shared: see there.
+template <class Layout, bool Shared, class Id>
+struct fill_steps {
+    void (*locate)(const line_table&, const Id*, id_block<Layout>&) noexcept = nullptr;
+    std::uint32_t (*insert)(const line_table&, const id_block<Layout>&, std::uint32_t, index_t*, std::uint32_t*,
+                            std::uint32_t, std::size_t&) noexcept = nullptr;
+
+    fill_steps() noexcept {
+        with_kernels([this]<class Kernels>(Kernels) {
+            locate = &Kernels::template locate<Layout, Id>;
+            insert = &Kernels::template insert<Layout, Shared>;
+        });
+    }
+};
+
 /// Inserts ids into cleared lines, last to first: all of them, or (Shared) those whose preferred place is one of
 /// `places` from first_place on, while other threads insert the rest. Links are written for all, or (Shared) they are
 /// all absent already. left_over(place, tag, index + 1) takes what the filler finds no place for. @return false if it
@@ -126,12 +142,13 @@ inline constexpr std::size_t ids_ahead = 4;
 /// branch. The others wait in the queue, until the stores of their block no longer stall the vector loads of their
 /// lines. Two copies of one id meet the same slot: so the second waits behind the first, and they are linked in their
 /// order.
-template <class Kernels, class Layout, bool Shared, class Id, class LeftOver>
+template <class Layout, bool Shared, class Id, class LeftOver>
 bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<const Id> ids, index_t* links,
                 std::uint32_t first_place, std::uint32_t places, bool beyond_cache, LeftOver&& left_over) noexcept {
     const auto is_mine = [=](std::uint64_t place) {
         return !Shared || static_cast<std::uint32_t>(place) - first_place < places;
     };
+    const fill_steps<Layout, Shared, Id> steps;
     const std::size_t blocks = ids.size() / block_size;
     if (!Shared && links != nullptr) std::fill_n(links + blocks * block_size, ids.size() % block_size, absent);
     for (std::size_t i = ids.size(); i-- > blocks * block_size;) {
@@ -157,7 +174,7 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
             for (std::size_t k = 0; k < block_size; k += 64 / sizeof(Id))
                 detail::prefetch(ids.data() + first_of(step + ids_ahead) + k);
         if (step < blocks) {
-            Kernels::template locate<Layout>(table, ids.data() + first_of(step), ring[step % 3]);
+            steps.locate(table, ids.data() + first_of(step), ring[step % 3]);
             if constexpr (Shared) {  // no branch: whose id it is cannot be predicted
                 count[step % 3] = 0;
                 for (std::uint32_t k = block_size; k-- > 0;) {
@@ -191,8 +208,8 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
             const auto& block = ring[(step - 2) % 3];
             auto& waiting = queue[(step - 2) % 3];
             const auto first = static_cast<std::uint32_t>(first_of(step - 2) + 1);
-            const auto kept = Kernels::template insert<Layout, Shared>(table, block, first, links, waiting,
-                                                                       queued[(step - 2) % 3], filler.repeated);
+            const auto kept =
+                steps.insert(table, block, first, links, waiting, queued[(step - 2) % 3], filler.repeated);
             for (std::uint32_t q = 0; q < kept; ++q) {
                 const auto k = waiting[q];
                 if (!filler.insert_beyond(block.place[k], block.tag[k], first + k) &&
@@ -206,11 +223,11 @@ bool insert_all(const line_table& table, line_filler<Layout>& filler, std::span<
 
 /// One thread. @return how many ids occurred before; no_fit if the stash is full, or more ids than most_spilled met a
 /// full home line: then this multiplier maps them badly.
-template <class Kernels, class Layout, class Id, class Spills>
+template <class Layout, class Id, class Spills>
 std::uint64_t fill_lines(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
                          bool beyond_cache, std::size_t most_spilled) noexcept {
     line_filler<Layout> filler(table, table.lines + spill_lines, links.data());
-    const bool fits = insert_all<Kernels, Layout, false>(
+    const bool fits = insert_all<Layout, false>(
         table, filler, ids, links.data(), 0, 0, beyond_cache,
         [&](std::uint64_t place, auto tag, std::uint32_t index_plus_1) {
             return insert_into_stash(filler, stash, {tag, static_cast<std::uint32_t>(place), index_plus_1});
@@ -233,7 +250,7 @@ public:
     }
 
     /// Clears the lines as well. @return as fill_lines.
-    template <class Kernels, class Id, class Spills, executor Executor>
+    template <class Id, class Spills, executor Executor>
     std::uint64_t fill(const line_table& table, Spills& stash, std::span<const Id> ids, std::span<index_t> links,
                        bool beyond_cache, std::size_t most_spilled, const Executor& on) noexcept {
         const std::size_t team = late_.size();
@@ -253,7 +270,7 @@ public:
             if (first == end) return;  // more threads than lines
             line_filler<Layout> filler(table, end < table.lines ? end : table.lines + spill_lines, links.data());
             // A refusal shows below: a list that is full may have refused an id.
-            insert_all<Kernels, Layout, true>(
+            insert_all<Layout, true>(
                 table, filler, ids, links.data(), static_cast<std::uint32_t>(first * Layout::slots),
                 static_cast<std::uint32_t>((end - first) * Layout::slots), beyond_cache,
                 [&](std::uint64_t place, auto tag, std::uint32_t index_plus_1) {

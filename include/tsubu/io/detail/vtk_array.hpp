@@ -91,11 +91,15 @@ struct vtk_point<std::array<Scalar, D>> {
     }
 };
 
+/// A type of numbers, as VTK names it: Float64, UInt8.
+struct vtk_type {
+    const char* kind;
+    std::size_t bytes;
+};
 template <class Scalar>
-[[nodiscard]] std::string vtk_type_name() {
-    const std::string kind = std::is_floating_point_v<Scalar> ? "Float" : std::is_signed_v<Scalar> ? "Int" : "UInt";
-    return kind + std::to_string(8 * sizeof(Scalar));
-}
+inline constexpr vtk_type vtk_type_of{
+    std::is_floating_point_v<Scalar> ? "Float" : std::is_signed_v<Scalar> ? "Int" : "UInt", sizeof(Scalar)};
+[[nodiscard]] inline std::string name_of(vtk_type type) { return type.kind + std::to_string(8 * type.bytes); }
 
 /// Text as it stands in an attribute or an element.
 [[nodiscard]] inline std::string in_xml(std::string_view text) {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <tsubu/core/error.hpp>
-#include <tsubu/core/executor.hpp>
 #include <tsubu/core/random.hpp>
+#include <tsubu/core/threads.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/concepts.hpp>
 #include <tsubu/id/id_range.hpp>

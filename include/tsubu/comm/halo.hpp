@@ -62,7 +62,7 @@ public:
         return shifts_[k];
     }
     /// Of all ghosts [ghost_count()].
-    [[nodiscard]] std::span<const shift_type> shifts() const noexcept { return shifts_; }
+    [[nodiscard]] std::span<const shift_type> shifts() const noexcept { return {shifts_.data(), shifts_.size()}; }
     /// How many particles this rank sends with each forward.
     [[nodiscard]] std::size_t sent_count() const noexcept {
         return sum([](const round_type& one) { return one.sent(); });

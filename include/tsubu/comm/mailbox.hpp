@@ -74,6 +74,10 @@ public:
         const auto room = add(one.rank, one.words.size());
         std::copy_n(one.words.data(), one.words.size(), room.data());
     }
+    /// The words of a parcel, which has none then.
+    [[nodiscard]] message_memory::array<std::uint64_t> take(std::size_t k) noexcept {
+        return std::move(letters_[k].words);
+    }
     /// By rank of the sender; those of one sender stay in their order.
     void sort() {
         std::sort(letters_.begin(), letters_.end(), [](const letter& a, const letter& b) {

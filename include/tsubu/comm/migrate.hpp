@@ -95,7 +95,7 @@ public:
         if (count == 0) return;
         auto at = memory_.take<position_type>(count);  // side by side, for the batched predicates
         for (std::size_t k = 0; k < count; ++k) at[k] = position[static_cast<std::size_t>(outside[k])];
-        const auto points_at = points_type(std::span<const position_type>(at));
+        const auto points_at = points_type(std::span<const position_type>(at.data(), count));
         auto is_inside = memory_.take<unsigned char>(count);
         see_inside(points_at, is_inside.first(count));
         const auto moved = wrapped_ones<OnLost>(outside, at, is_inside);
@@ -124,10 +124,10 @@ public:
             at += used;
         });
     }
-    [[nodiscard]] std::span<const parcel> parcels() const noexcept { return parcels_; }
+    [[nodiscard]] std::span<const parcel> parcels() const noexcept { return {parcels_.data(), parcels_.size()}; }
     [[nodiscard]] std::size_t sent() const noexcept { return leavers_.size(); }
     [[nodiscard]] std::size_t received() const noexcept { return received_; }
-    [[nodiscard]] std::span<const index_t> lost() const noexcept { return lost_; }
+    [[nodiscard]] std::span<const index_t> lost() const noexcept { return {lost_.data(), lost_.size()}; }
 
     void unpack_arrivals(const mailbox& came) {
         constexpr typename Store::fields_type set{};
@@ -280,7 +280,7 @@ private:
     void each_destination(Body&& body) const {
         for (std::size_t first = 0, end = 0; first < leavers_.size(); first = end) {
             while (end < leavers_.size() && leavers_[end].to == leavers_[first].to) ++end;
-            body(leavers_[first].to, std::span<const index_t>(indices_).subspan(first, end - first));
+            body(leavers_[first].to, std::span<const index_t>(indices_.data() + first, end - first));
         }
     }
 

@@ -13,7 +13,7 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>  // std::copy, std::sort
+#include <algorithm>  // std::copy_n
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <limits>     // std::numeric_limits
@@ -104,7 +104,7 @@ public:
         for (const auto& one : parcels) detail::check_parcel("mpi_transport::exchange", one, ranks());
         // Who is through may begin the next exchange, while another still looks for messages of this one.
         const int tag = exchange_tag + std::exchange(parity_, 1 - parity_);
-        incoming came{mailbox(memory_), {}, false};
+        incoming came{mailbox(memory_), mailbox(memory_), false};
         std::vector<MPI_Request> sends;
         try {
             std::size_t pieces = 0;
@@ -172,8 +172,7 @@ public:
         mailbox came(memory_);
         for (std::size_t k = 0; k < ranks(); ++k)
             came.add(parcel{static_cast<rank_t>(k),
-                            std::span(all).subspan(static_cast<std::size_t>(places[k]),
-                                                   static_cast<std::size_t>(lengths[k]))});
+                            {all.data() + places[k], static_cast<std::size_t>(lengths[k])}});
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
@@ -252,13 +251,8 @@ private:
 
     // What has come so far.
     struct incoming {
-        struct piece {
-            rank_t from;
-            std::size_t number;  // in the order of arrival
-            message_memory::array<std::uint64_t> words;
-        };
         mailbox box;  // of parcels of this rank to itself; in the end of all
-        std::vector<piece> pieces;  // of one sender in their order
+        mailbox pieces;  // of one sender in their order
         bool has_no_room;
     };
     void receive_one(int tag, incoming& came) {
@@ -269,35 +263,33 @@ private:
         if (found == 0) return;
         int count = 0;
         check_mpi(MPI_Get_count(&status, MPI_UINT64_T, &count), "MPI_Get_count");
+        std::span<std::uint64_t> room;
         try {
-            came.pieces.push_back({static_cast<rank_t>(status.MPI_SOURCE), came.pieces.size(),
-                                   memory_.take<std::uint64_t>(static_cast<std::size_t>(count))});
+            room = came.pieces.add(static_cast<rank_t>(status.MPI_SOURCE), static_cast<std::size_t>(count));
         } catch (const std::bad_alloc&) {
             // It is taken and thrown away, or its sender would wait for ever.
             came.has_no_room = true;
             static_cast<void>(MPI_Mrecv(nullptr, 0, MPI_UINT64_T, &message, MPI_STATUS_IGNORE));
             return;
         }
-        check_mpi(MPI_Mrecv(came.pieces.back().words.data(), count, MPI_UINT64_T, &message, MPI_STATUS_IGNORE),
-                  "MPI_Mrecv");
+        check_mpi(MPI_Mrecv(room.data(), count, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "MPI_Mrecv");
     }
     // Joins the pieces of each parcel.
     [[nodiscard]] mailbox whole(incoming& came) const {
         auto& pieces = came.pieces;
-        std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
-            return a.from != b.from ? a.from < b.from : a.number < b.number;
-        });
+        pieces.sort();
         mailbox box = std::move(came.box);
         for (std::size_t first = 0, last = 0; first < pieces.size(); first = last + 1) {
             std::size_t words = 0;
             for (last = first; pieces[last].words.size() == most_words_; ++last) words += most_words_;
             words += pieces[last].words.size();
             if (last == first) {
-                box.add(pieces[first].from, std::move(pieces[first].words));
+                box.add(pieces[first].rank, pieces.take(first));
                 continue;
             }
-            auto* to = box.add(pieces[first].from, words).data();
-            for (auto k = first; k <= last; ++k) to = std::copy(pieces[k].words.begin(), pieces[k].words.end(), to);
+            auto* to = box.add(pieces[first].rank, words).data();
+            for (auto k = first; k <= last; ++k)
+                to = std::copy_n(pieces[k].words.data(), pieces[k].words.size(), to);
         }
         box.sort();
         return box;

@@ -25,7 +25,7 @@ void agreed_exchange(Transport& on, const char* where, Prepare&& prepare, Take&&
     agreement<> after(on.rank());
     mailbox came;
     try {
-        came = on.exchange(parcels, before.words());
+        came = on.exchange({parcels.data(), parcels.size()}, before.words());
     } catch (const std::bad_alloc&) {  // of what came; the exchange is over
         after.attempt([] { throw; });
     }

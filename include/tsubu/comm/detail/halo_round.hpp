@@ -78,7 +78,7 @@ public:
         auto mask = on_->memory().template take<unsigned char>(outer.count);
         for (const auto& asker : askers) {
             const auto begin = chosen_.size();
-            asker.near.surroundings().owns(at, mask.first(mask.size()));
+            asker.near.surroundings().owns(at, {mask.data(), mask.size()});
             for (std::size_t k = 0; k < mask.size(); ++k) {
                 if (mask[k] == 0) continue;
                 const auto i = outer.indices[k];
@@ -109,13 +109,13 @@ public:
                 put_shift(to, outgoing_[k].shift);
                 *to++ = outgoing_[k].count;
             }
-            to += pack(store, set, chosen, {to, words.end()});
+            to += pack(store, set, chosen, {to, static_cast<std::size_t>(words.end() - to)});
             if (!shifts.empty())
                 for (const auto i : chosen) {
                     const auto index = static_cast<std::size_t>(i);
                     put_shift(to, index < owned ? shift_type{} : shifts[index - owned]);
                 }
-            parcels.push_back({outgoing_[first].rank, {begin, to}});
+            parcels.push_back({outgoing_[first].rank, {begin, static_cast<std::size_t>(to - begin)}});
         });
     }
     /// @param[in,out] shifts  of the ghosts, to which those of the new ones are added
@@ -145,7 +145,7 @@ public:
     template <class Store, auto... F>
     void start_forward(const Store& store, fields<F...> set) {
         auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
-        put(store, set, chosen_, 0, outgoing_, way.forward.out(), way.here);
+        put(store, set, {chosen_.data(), chosen_.size()}, 0, outgoing_, way.forward.out(), way.here);
         way.forward.start();
     }
     template <class Store, auto... F>
@@ -153,7 +153,7 @@ public:
         auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
         way.forward.finish();
         auto from_others = way.forward.in();
-        std::span<const std::uint64_t> from_here(way.here);
+        std::span<const std::uint64_t> from_here(way.here.data(), way.here.size());
         for (const auto& one : incoming_) {
             auto& words = one.rank == rank_ ? from_here : from_others;
             words = words.subspan(take(store, one, words, set));
@@ -162,7 +162,7 @@ public:
     template <class Store, auto... F>
     void start_reverse(const Store& store, fields<F...> set) {
         auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
-        put(store, set, ghost_indices_, first_, incoming_, way.reverse.out(), way.here);
+        put(store, set, {ghost_indices_.data(), ghost_indices_.size()}, first_, incoming_, way.reverse.out(), way.here);
         way.reverse.start();
     }
     template <class Store, auto... F>
@@ -232,7 +232,7 @@ private:
             while (last < outgoing_.size() && outgoing_[last].rank == outgoing_[first].rank) ++last;
             const auto begin = outgoing_[first].begin;
             const auto count = outgoing_[last - 1].begin + outgoing_[last - 1].count - begin;
-            body(first, last, std::span<const index_t>(chosen_).subspan(begin, count));
+            body(first, last, std::span<const index_t>(chosen_.data() + begin, count));
         }
     }
     static void put_shift(std::uint64_t*& to, const shift_type& shift) noexcept {
@@ -274,7 +274,7 @@ private:
     void put(const Store& store, fields<F...> set, std::span<const index_t> indices, std::size_t first,
              const std::vector<segment>& segments, std::span<std::uint64_t> to_others,
              std::vector<std::uint64_t>& here) const {
-        std::span<std::uint64_t> to_here(here);
+        std::span<std::uint64_t> to_here(here.data(), here.size());
         for (const auto& one : segments) {
             auto& to = one.rank == rank_ ? to_here : to_others;
             to = to.subspan(pack(store, set, indices.subspan(one.begin - first, one.count), to));

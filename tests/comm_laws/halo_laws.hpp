@@ -7,25 +7,196 @@
 #include <tsubu/comm/halo.hpp>
 
 #include "comm_laws/known_particles.hpp"
+#include "support/verdict.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace comm_laws {
 
+/// What a halo has to keep, told to a verdict with where it was broken.
+class halo_verdict {
+public:
+    halo_verdict(verdict& seen, std::string where) : seen_(&seen), where_(std::move(where)) {}
+    void expect(bool kept, const char* law) { (*seen_)(kept, kept ? std::string(law) : law + where_); }
+
+private:
+    verdict* seen_;
+    std::string where_;
+};
+
+/// An image by the particle and the shift, of which a line or a plane has fewer numbers.
+struct image_name {
+    std::int64_t id;
+    tsubu::image_shift<3> shift;
+    friend auto operator<=>(const image_name&, const image_name&) = default;
+};
+template <std::size_t D>
+[[nodiscard]] image_name name_of(std::int64_t t, const tsubu::image_shift<D>& shift) {
+    image_name name{t, {}};
+    std::copy(shift.begin(), shift.end(), name.shift.begin());
+    return name;
+}
+enum class nearness { near, on_the_edge, far };
+struct known_image {
+    image_name name;
+    nearness where;
+};
+
+/// @param have  the ghosts of this rank
+/// @param images  all that could be near, each once, but for the particles of this rank themselves
+/// @param home  of all particles
+inline void examine_names(std::vector<image_name> have, const std::vector<known_image>& images,
+                          const std::vector<tsubu::rank_t>& home, tsubu::rank_t rank, bool is_direct,
+                          halo_verdict& judge) {
+    bool is_known = true;
+    bool is_other = true;
+    bool by_rank = true;
+    for (std::size_t k = 0; k < have.size(); ++k) {
+        const auto& [t, shift] = have[k];
+        is_known = is_known && t >= 0 && static_cast<std::size_t>(t) < home.size();
+        if (!is_known) break;
+        const auto owner = home[static_cast<std::size_t>(t)];
+        is_other = is_other && !(owner == rank && shift == tsubu::image_shift<3>{});
+        by_rank = by_rank && (k == 0 || home[static_cast<std::size_t>(have[k - 1].id)] <= owner);
+    }
+    judge.expect(is_known, "halo: ghosts have ids of particles");
+    judge.expect(is_other, "halo: no particle is a ghost of itself");
+    if (is_direct) judge.expect(by_rank, "halo: ghosts are in the order of their owners' ranks");
+    std::sort(have.begin(), have.end());
+    judge.expect(std::adjacent_find(have.begin(), have.end()) == have.end(), "halo: no image is there twice");
+    bool is_complete = true;
+    bool is_near = true;
+    std::size_t listed = 0;
+    for (const auto& [name, where] : images) {
+        const bool is_there = std::binary_search(have.begin(), have.end(), name);
+        listed += is_there ? 1U : 0U;
+        is_complete = is_complete && (where != nearness::near || is_there);
+        is_near = is_near && (where != nearness::far || !is_there);
+    }
+    judge.expect(is_complete, "halo: every image within the cutoff is there");
+    judge.expect(is_near && listed == have.size(), "halo: no image beyond the cutoff is there");
+}
+
+/// The one name of an image that has several: in a wedge.
+template <class Box>
+[[nodiscard]] tsubu::image_shift<Box::dimension> same_image(const Box& where,
+                                                            const tsubu::image_shift<Box::dimension>& shift) {
+    if constexpr (tsubu::cyclic_box<Box>)
+        return where.same_image(shift);
+    else
+        return shift;
+}
+
+/// Where particles are, and which of their images are near one rank, of all that could be.
+template <class Box>
+class all_images {
+    static constexpr auto D = Box::dimension;
+    using real_type = typename Box::real_type;
+    using position_type = typename Box::position_type;
+    using real_position = tsubu::vec<D, real_type>;
+    using shift_type = tsubu::image_shift<D>;
+
+public:
+    static constexpr bool is_domain =
+        std::is_same_v<Box, std::remove_cvref_t<decltype(std::declval<Box>().cell())>>;
+
+    /// @param mine  the subdomain that asks
+    template <class Part>
+    all_images(const Box& where, const Part& mine, double cutoff, bool is_staged)
+        : box_(where), cutoff_(cutoff), is_staged_(is_staged) {
+        for (std::size_t k = 0; k < D; ++k) {
+            lo_[k] = mine.lo()[k];
+            hi_[k] = mine.hi()[k];
+            if (!where.cell().along(k).is_periodic()) continue;
+            auto reach = static_cast<real_type>(cutoff);
+            if constexpr (!is_domain) reach = where.cell_reach(reach, mine, mine)[k];
+            // One period more reaches from beyond the other face.
+            most_[k] = static_cast<std::int64_t>(reach / where.cell().along(k).length()) + 1;
+            least_[k] = -most_[k];
+        }
+        if constexpr (tsubu::cyclic_box<Box>) {
+            least_[0] = 0;
+            most_[0] = static_cast<std::int64_t>(where.sectors()) - 1;
+        }
+    }
+    /// Of all but the particles of this rank themselves.
+    [[nodiscard]] std::vector<known_image> of(const std::vector<position_type>& all,
+                                              const std::vector<tsubu::rank_t>& home, tsubu::rank_t rank) const {
+        std::vector<position_type> here;
+        for (std::size_t t = 0; t < all.size(); ++t)
+            if (home[t] == rank) here.push_back(all[t]);
+        std::vector<known_image> images;
+        auto shift = least_;
+        for (;;) {
+            for (std::size_t t = 0; t < all.size(); ++t)
+                if (home[t] != rank || shift != shift_type{})
+                    images.push_back({name_of(static_cast<std::int64_t>(t), same_image(box_, shift)),
+                                      nearness_of(box_.image(all[t], shift), here)});
+            std::size_t k = 0;
+            while (k < D && shift[k] == most_[k]) {
+                shift[k] = least_[k];
+                ++k;
+            }
+            if (k == D) return images;
+            ++shift[k];
+        }
+    }
+
+private:
+    /// To the subdomain; in boxes that are not a domain, to the particles here.
+    [[nodiscard]] nearness nearness_of(const real_position& x, const std::vector<position_type>& here) const {
+        constexpr auto rounding = 256 * static_cast<long double>(std::numeric_limits<real_type>::epsilon());
+        long double least = std::numeric_limits<long double>::infinity();
+        if constexpr (is_domain) {
+            static_cast<void>(here);
+            long double square = 0;
+            long double largest = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                const auto at = static_cast<long double>(x[k]);
+                const auto gap = at < lo_[k] ? lo_[k] - at : at > hi_[k] ? at - hi_[k] : 0.0L;
+                square += gap * gap;
+                largest = gap > largest ? gap : largest;
+            }
+            least = is_staged_ ? largest : std::sqrt(square);
+            if (least > cutoff_ + rounding * (1 + cutoff_)) return nearness::far;
+        } else {
+            for (const auto& one : here) {
+                long double square = 0;
+                for (std::size_t k = 0; k < D; ++k) {
+                    const auto gap = static_cast<long double>(x[k]) - one[k];
+                    square += gap * gap;
+                }
+                least = (std::min)(least, std::sqrt(square));
+            }
+        }
+        return least < cutoff_ - rounding * (1 + cutoff_) || (least == 0 && is_domain) ? nearness::near
+                                                                                       : nearness::on_the_edge;
+    }
+
+    const Box& box_;
+    long double cutoff_;
+    bool is_staged_;
+    real_position lo_{};
+    real_position hi_{};
+    shift_type least_{};
+    shift_type most_{};
+};
+
+/// By which pattern.
+enum class passed { directly, in_stages };
+
 /// All particles, on their ranks, and the halo of this one.
-template <class Parts, class Transport, class Pattern, class Check, class Layout = tsubu::soa>
+template <class Parts, class Transport, class Layout = tsubu::soa>
 class ghosts_of {
     static constexpr auto D = Parts::dimension;
     using Scalar = typename Parts::scalar_type;
@@ -34,20 +205,25 @@ class ghosts_of {
     using position_type = typename Parts::position_type;
     using real_position = tsubu::vec<D, Real>;
     using shift_type = tsubu::image_shift<D>;
-    using key = std::pair<std::int64_t, shift_type>;
+    using halo_type = tsubu::halo<Parts, Transport>;
     static constexpr auto position = tsubu::position<D, Scalar>;
     static constexpr auto velocity = tsubu::velocity<D, Real>;
     static constexpr auto force = tsubu::force<D, Real>;
-    static constexpr bool is_domain =
-        std::is_same_v<box_type, std::remove_cvref_t<decltype(std::declval<box_type>().cell())>>;
-    static constexpr bool is_staged = std::is_same_v<Pattern, tsubu::staged_pattern>;
+    static constexpr bool is_domain = all_images<box_type>::is_domain;
 
 public:
     using store_type = known_store<Parts, Layout>;
 
-    ghosts_of(const Parts& parts, Transport& on, const Pattern& pattern, Real cutoff, std::uint64_t seed,
-              std::size_t count, Check& check)
-        : parts_(parts), on_(on), pattern_(pattern), cutoff_(cutoff), seed_(seed), check_(check) {
+    ghosts_of(const Parts& parts, Transport& on, passed how, double cutoff, std::uint64_t seed, std::size_t count,
+              verdict& seen)
+        : parts_(parts),
+          on_(on),
+          is_staged_(how == passed::in_stages),
+          cutoff_(static_cast<Real>(cutoff)),
+          seed_(seed),
+          judge_(seen, "; rank " + std::to_string(on.rank()) + " of " + std::to_string(on.ranks()) +
+                           ", D = " + std::to_string(D) + ", cutoff " + std::to_string(cutoff) + ", seed " +
+                           std::to_string(seed)) {
         all_ = points_in(parts.whole(), count, seed);
         // Some on the corners of ranks.
         if constexpr (!tsubu::is_lattice<Scalar>)
@@ -63,11 +239,11 @@ public:
 
     void examine() {
         store_.add_ghosts(3);  // of before
-        auto made = tsubu::make_halo(store_, parts_, cutoff_, on_, pattern_);
+        auto made = make(parts_, cutoff_);
         auto halo = std::move(made);  // it may be moved
         const bool counts = halo.owned_count() == store_.owned_count() && halo.ghost_count() == store_.ghost_count() &&
                             halo.shifts().size() == halo.ghost_count();
-        expect(counts, "halo: the counts are those of the store");
+        judge_.expect(counts, "halo: the counts are those of the store");
         if (!counts) return;
         examine_images(halo);
         examine_creation(halo);
@@ -79,146 +255,48 @@ public:
         examine_stale(halo);
     }
     void examine_refusals(const Parts& of_more) {
-        const auto refuses = [&](const auto& parts, Real cutoff) {
+        const auto refuses = [&](const Parts& parts, Real cutoff) {
             store_.clear_ghosts();
             store_.add_ghosts(1);
             try {
-                static_cast<void>(tsubu::make_halo(store_, parts, cutoff, on_, pattern_));
+                static_cast<void>(make(parts, cutoff));
             } catch (const tsubu::input_error&) {
                 return store_.ghost_count() == 0;
             }
             return false;
         };
-        expect(refuses(parts_, -1), "halo: a negative cutoff is refused on all ranks, and there are no ghosts");
-        expect(refuses(parts_, std::numeric_limits<Real>::quiet_NaN()), "halo: a NaN as cutoff is refused");
-        expect(refuses(parts_, std::numeric_limits<Real>::infinity()), "halo: an infinite cutoff is refused");
-        expect(refuses(of_more, cutoff_), "halo: a decomposition for other ranks is refused");
+        judge_.expect(refuses(parts_, -1), "halo: a negative cutoff is refused on all ranks, and there are no ghosts");
+        judge_.expect(refuses(parts_, std::numeric_limits<Real>::quiet_NaN()), "halo: a NaN as cutoff is refused");
+        judge_.expect(refuses(parts_, std::numeric_limits<Real>::infinity()), "halo: an infinite cutoff is refused");
+        judge_.expect(refuses(of_more, cutoff_), "halo: a decomposition for other ranks is refused");
         // What one rank alone finds, all are told.
-        expect(refuses(parts_, on_.rank() + 1 == on_.ranks() ? Real{-1} : cutoff_),
-               "halo: what one rank refuses is refused on all");
-        auto halo = tsubu::make_halo(store_, parts_, cutoff_, on_, pattern_);
-        examine_images(halo);
+        judge_.expect(refuses(parts_, on_.rank() + 1 == on_.ranks() ? Real{-1} : cutoff_),
+                      "halo: what one rank refuses is refused on all");
+        examine_images(make(parts_, cutoff_));
     }
 
 private:
-    [[nodiscard]] const box_type& box() const { return parts_.whole(); }
-    [[nodiscard]] static shift_type no_shift() { return {}; }
-    /// The one name of an image that has several: in a wedge.
-    [[nodiscard]] shift_type named(const shift_type& shift) const {
-        if constexpr (tsubu::cyclic_box<box_type>)
-            return box().same_image(shift);
-        else
-            return shift;
+    [[nodiscard]] halo_type make(const Parts& parts, Real cutoff) {
+        if constexpr (tsubu::halo_pattern<tsubu::staged_pattern, Parts>)
+            if (is_staged_) return tsubu::make_halo(store_, parts, cutoff, on_, tsubu::staged_pattern{});
+        return tsubu::make_halo(store_, parts, cutoff, on_);
     }
+    [[nodiscard]] const box_type& box() const { return parts_.whole(); }
     [[nodiscard]] std::int64_t id_of(std::size_t ghost) const {
         return store_[tsubu::id][store_.owned_count() + ghost];
     }
 
-    template <class Halo>
-    void examine_images(const Halo& halo) {
-        std::vector<key> have;
-        for (std::size_t k = 0; k < halo.ghost_count(); ++k) have.emplace_back(id_of(k), named(halo.shift(k)));
-        std::sort(have.begin(), have.end());
-        expect(std::adjacent_find(have.begin(), have.end()) == have.end(), "halo: no image is there twice");
-        bool is_known = true;
-        bool is_other = true;
-        for (const auto& [t, shift] : have) {
-            is_known = is_known && t >= 0 && static_cast<std::size_t>(t) < all_.size();
-            is_other = is_other && is_known &&
-                       !(home_[static_cast<std::size_t>(t)] == on_.rank() && shift == no_shift());
-        }
-        expect(is_known, "halo: ghosts have ids of particles");
-        expect(is_other, "halo: no particle is a ghost of itself");
-        bool is_complete = true;
-        bool is_near = true;
-        std::size_t must = 0;
-        each_image([&](std::size_t t, const shift_type& shift, const real_position& x) {
-            const auto where = nearness(x);
-            const bool is_there =
-                std::binary_search(have.begin(), have.end(), key(static_cast<std::int64_t>(t), named(shift)));
-            must += where == near ? 1U : 0U;
-            is_complete = is_complete && (where != near || is_there);
-            is_near = is_near && (where != far || !is_there);
-        });
-        expect(is_complete, "halo: every image within the cutoff is there");
-        expect(is_near, "halo: no image beyond the cutoff is there");
-        if constexpr (is_domain) expect(must <= have.size(), "halo: there is no shift but of periods that are near");
-        if constexpr (!is_staged) {
-            bool by_rank = true;
-            for (std::size_t k = 1; is_known && k < halo.ghost_count(); ++k)
-                by_rank = by_rank && home_[static_cast<std::size_t>(id_of(k - 1))] <=
-                                         home_[static_cast<std::size_t>(id_of(k))];
-            expect(by_rank, "halo: ghosts are in the order of their owners' ranks");
-        }
-    }
-
-    enum nearness_type { near, on_the_edge, far };
-    /// Of an image to the subdomain of this rank; in boxes that are not a domain, to its particles.
-    [[nodiscard]] nearness_type nearness(const real_position& x) const {
-        constexpr auto rounding = 256 * static_cast<long double>(std::numeric_limits<Real>::epsilon());
-        long double least = std::numeric_limits<long double>::infinity();
-        if constexpr (is_domain) {
-            const auto mine = parts_.subdomain(on_.rank());
-            long double square = 0;
-            long double largest = 0;
-            for (std::size_t k = 0; k < D; ++k) {
-                const auto gap = (std::max)({static_cast<long double>(mine.lo()[k]) - x[k],
-                                             static_cast<long double>(x[k]) - mine.hi()[k], 0.0L});
-                square += gap * gap;
-                largest = (std::max)(largest, gap);
-            }
-            least = is_staged ? largest : std::sqrt(square);
-            if (least > cutoff_ + rounding * (1 + cutoff_)) return far;
-        } else {
-            for (std::size_t i = 0; i < store_.owned_count(); ++i) {
-                long double square = 0;
-                for (std::size_t k = 0; k < D; ++k) {
-                    const auto gap = static_cast<long double>(x[k]) - store_[position][i][k];
-                    square += gap * gap;
-                }
-                least = (std::min)(least, std::sqrt(square));
-            }
-        }
-        return least < cutoff_ - rounding * (1 + cutoff_) || (least == 0 && is_domain) ? near : on_the_edge;
-    }
-    /// body(t, shift, x) for all images that could be near, but for the particles of this rank themselves.
-    template <class Body>
-    void each_image(Body&& body) const {
-        shift_type most{};
-        shift_type least{};
-        if constexpr (is_domain) {
-            for (std::size_t k = 0; k < D; ++k)
-                if (box().along(k).is_periodic())
-                    most[k] = static_cast<std::int64_t>(cutoff_ / box().along(k).length()) + 2;
-        } else {
-            const auto mine = parts_.subdomain(on_.rank());
-            const auto reach = box().cell_reach(cutoff_, mine, mine);
-            for (std::size_t k = 0; k < D; ++k)
-                if (box().cell().along(k).is_periodic())
-                    most[k] = static_cast<std::int64_t>(reach[k] / box().cell().along(k).length()) + 2;
-        }
-        for (std::size_t k = 0; k < D; ++k) least[k] = -most[k];
-        if constexpr (tsubu::cyclic_box<box_type>) {
-            least[0] = 0;
-            most[0] = static_cast<std::int64_t>(box().sectors()) - 1;
-        }
-        auto shift = least;
-        for (;;) {
-            for (std::size_t t = 0; t < all_.size(); ++t)
-                if (home_[t] != on_.rank() || shift != no_shift()) body(t, shift, box().image(all_[t], shift));
-            std::size_t k = 0;
-            while (k < D && shift[k] == most[k]) {
-                shift[k] = least[k];
-                ++k;
-            }
-            if (k == D) return;
-            ++shift[k];
-        }
+    void examine_images(const halo_type& halo) {
+        std::vector<image_name> have;
+        for (std::size_t k = 0; k < halo.ghost_count(); ++k)
+            have.push_back(name_of(id_of(k), same_image(box(), halo.shift(k))));
+        const all_images<box_type> images(box(), parts_.subdomain(on_.rank()), static_cast<double>(cutoff_),
+                                          is_staged_);
+        examine_names(have, images.of(all_, home_, on_.rank()), home_, on_.rank(), !is_staged_, judge_);
     }
 
     /// @param at  where all particles are
-    template <class Halo>
-    [[nodiscard]] bool are_images(const Halo& halo, const std::vector<position_type>& at) const {
+    [[nodiscard]] bool are_images(const halo_type& halo, const std::vector<position_type>& at) const {
         const auto rounding = 64 * std::numeric_limits<Real>::epsilon() * (3 + 2 * cutoff_);
         bool is_image = true;
         for (std::size_t k = 0; k < halo.ghost_count(); ++k) {
@@ -230,13 +308,12 @@ private:
                 const auto wanted = box().image(from, halo.shift(k));
                 // By several steps rounding adds up.
                 for (std::size_t d = 0; d < D; ++d)
-                    is_image = is_image && std::abs(x[d] - wanted[d]) <= (is_staged || !is_domain ? rounding : 0);
+                    is_image = is_image && std::abs(x[d] - wanted[d]) <= (is_staged_ || !is_domain ? rounding : 0);
             }
         }
         return is_image;
     }
-    template <class Halo>
-    [[nodiscard]] bool are_turned(const Halo& halo, Real scale) const {
+    [[nodiscard]] bool are_turned(const halo_type& halo, Real scale) const {
         bool is_turned = true;
         for (std::size_t k = 0; k < halo.ghost_count(); ++k) {
             auto v = velocity_of<D, Real>(id_of(k));
@@ -254,10 +331,9 @@ private:
         return true;
     }
 
-    template <class Halo>
-    void examine_creation(const Halo& halo) {
-        expect(are_images(halo, all_), "halo: positions arrive moved into the image");
-        expect(are_turned(halo, 1), "halo: vectors arrive turned into the image");
+    void examine_creation(const halo_type& halo) {
+        judge_.expect(are_images(halo, all_), "halo: positions arrive moved into the image");
+        judge_.expect(are_turned(halo, 1), "halo: vectors arrive turned into the image");
         bool has_lists = true;
         bool has_others = true;
         bool is_hidden = true;
@@ -267,12 +343,11 @@ private:
             has_others = has_others && store_[tally][i] == 1000.0 + static_cast<double>(id_of(k));
             is_hidden = is_hidden && store_[hidden][i] == 0 && store_[force][i] == real_position{};
         }
-        expect(has_lists, "halo: lists and bonus values travel on creation");
-        expect(has_others, "halo: other fields travel on creation");
-        expect(is_hidden, "halo: what never travels is zero");
+        judge_.expect(has_lists, "halo: lists and bonus values travel on creation");
+        judge_.expect(has_others, "halo: other fields travel on creation");
+        judge_.expect(is_hidden, "halo: what never travels is zero");
     }
-    template <class Halo>
-    void examine_forward(Halo& halo) {
+    void examine_forward(halo_type& halo) {
         auto moved = all_;
         for (std::size_t t = 0; t < moved.size(); ++t) moved[t] = beside(all_[t], t);
         for (std::size_t i = 0; i < store_.owned_count(); ++i) {
@@ -283,7 +358,7 @@ private:
             store_[hidden][i] = -1;
         }
         halo.forward(store_, position, velocity);
-        expect(are_images(halo, moved) && are_turned(halo, 2), "halo: forward brings several fields at once");
+        judge_.expect(are_images(halo, moved) && are_turned(halo, 2), "halo: forward brings several fields at once");
         halo.forward(store_, tally);
         bool has_tally = true;
         bool is_hidden = true;
@@ -292,12 +367,12 @@ private:
                         store_[tally][store_.owned_count() + k] == -3.0 * static_cast<double>(id_of(k));
             is_hidden = is_hidden && store_[hidden][store_.owned_count() + k] == 0;
         }
-        expect(has_tally, "halo: forward brings a field of another size");
-        expect(is_hidden, "halo: forward brings no other fields");
+        judge_.expect(has_tally, "halo: forward brings a field of another size");
+        judge_.expect(is_hidden, "halo: forward brings no other fields");
         for (std::size_t i = 0; i < store_.owned_count(); ++i)
             store_[position][i] = all_[static_cast<std::size_t>(store_[tsubu::id][i])];
-        halo.forward(store_, position);
-        expect(are_images(halo, all_), "halo: forward can be called again, with fewer fields");
+        halo.forward(store_, position, velocity);
+        judge_.expect(are_images(halo, all_), "halo: forward can be called again, after fewer fields");
     }
     [[nodiscard]] static position_type beside(position_type x, std::size_t t) {
         for (auto& one : x) {
@@ -313,8 +388,7 @@ private:
     [[nodiscard]] std::int64_t weight(std::size_t ghost) const {
         return 1 + static_cast<std::int64_t>(tsubu::splitmix64(seed_ + 131 * ghost + on_.rank()) % 97);
     }
-    template <class Halo>
-    void examine_reverse(Halo& halo) {
+    void examine_reverse(halo_type& halo) {
         struct total {
             std::int64_t sum = 0;
             std::int64_t count = 0;
@@ -365,19 +439,18 @@ private:
             const auto greatest = static_cast<float>((std::max)(std::int64_t{0}, wanted.greatest));
             is_greatest = is_greatest && store_[highest][i] == tsubu::vec<2, float>{greatest, static_cast<float>(t)};
         }
-        expect(is_sum, "halo: reverse adds what each ghost holds to its owner, once");
-        expect(is_vector_sum, "halo: reverse turns vectors back");
-        expect(is_least && is_greatest, "halo: reverse takes the least and the greatest");
-        if constexpr (!is_staged) {
+        judge_.expect(is_sum, "halo: reverse adds what each ghost holds to its owner, once");
+        judge_.expect(is_vector_sum, "halo: reverse turns vectors back");
+        judge_.expect(is_least && is_greatest, "halo: reverse takes the least and the greatest");
+        if (!is_staged_) {
             bool is_kept = true;
             for (std::size_t k = 0; k < halo.ghost_count(); ++k)
                 is_kept = is_kept && store_[tally][store_.owned_count() + k] == static_cast<double>(weight(k));
-            expect(is_kept, "halo: ghosts keep what they hold");
+            judge_.expect(is_kept, "halo: ghosts keep what they hold");
         }
     }
     /// Forward, then reverse: each owner has its value once more for each ghost, and the sum over all is conserved.
-    template <class Halo>
-    void examine_both_ways(Halo& halo) {
+    void examine_both_ways(halo_type& halo) {
         for (std::size_t i = 0; i < store_.owned_count(); ++i)
             store_[tally][i] = 0.1 * static_cast<double>(store_[tsubu::id][i] + 1);
         halo.forward(store_, tally);
@@ -390,23 +463,23 @@ private:
         halo.reverse(store_, tally);
         sums[1] = sum(0, store_.owned_count());
         on_.reduce(std::span<double>(sums), tsubu::reduction::sum);
-        expect(std::abs(sums[0] - sums[1]) <= 1e-13 * std::abs(sums[0]), "halo: reverse conserves the sum over all");
+        judge_.expect(std::abs(sums[0] - sums[1]) <= 1e-13 * std::abs(sums[0]),
+                      "halo: reverse conserves the sum over all");
     }
     /// Other work between the halves.
-    template <class Halo>
-    void examine_halves(Halo& halo) {
+    void examine_halves(halo_type& halo) {
         const auto put = [&](double factor) {
             for (std::size_t i = 0; i < store_.owned_count(); ++i)
                 store_[tally][i] = factor * static_cast<double>(store_[tsubu::id][i]);
         };
         put(5);
         halo.start_forward(store_, tally);
-        if constexpr (!is_staged) put(7);
+        if (!is_staged_) put(7);
         halo.finish_forward(store_, tally);
         bool is_of_start = true;
         for (std::size_t k = 0; k < halo.ghost_count(); ++k)
             is_of_start = is_of_start && store_[tally][store_.owned_count() + k] == 5 * static_cast<double>(id_of(k));
-        expect(is_of_start, "halo: the first half of forward takes the values, the second half brings them");
+        judge_.expect(is_of_start, "halo: the first half of forward takes the values, the second half brings them");
         for (std::size_t k = 0; k < halo.ghost_count(); ++k) store_[tally][store_.owned_count() + k] = 1;
         put(0);
         halo.start_reverse(store_, tally);
@@ -415,26 +488,25 @@ private:
         double sums[] = {0, static_cast<double>(halo.ghost_count() + 2 * store_.owned_count())};
         for (std::size_t i = 0; i < store_.owned_count(); ++i) sums[0] += store_[tally][i];
         on_.reduce(std::span<double>(sums), tsubu::reduction::sum);
-        expect(sums[0] == sums[1], "halo: owners may be added to between the halves of reverse");
+        judge_.expect(sums[0] == sums[1], "halo: owners may be added to between the halves of reverse");
     }
-    template <class Halo>
-    void examine_messages(const Halo& halo) {
+    void examine_messages(const halo_type& halo) {
         std::uint64_t sums[] = {halo.sent_count(), halo.ghost_count(), halo.sent_messages(), halo.received_messages()};
         on_.reduce(std::span<std::uint64_t>(sums), tsubu::reduction::sum);
-        expect(sums[0] == sums[1], "halo: as many are sent as there are ghosts");
-        expect(sums[2] == sums[3], "halo: as many messages are sent as come");
-        if constexpr (!is_staged) {
+        judge_.expect(sums[0] == sums[1], "halo: as many are sent as there are ghosts");
+        judge_.expect(sums[2] == sums[3], "halo: as many messages are sent as come");
+        if (!is_staged_) {
             std::vector<bool> is_met(on_.ranks(), false);
             for (std::size_t k = 0; k < halo.ghost_count(); ++k)
                 is_met[home_[static_cast<std::size_t>(id_of(k))]] = true;
             is_met[on_.rank()] = false;
-            expect(halo.received_messages() == static_cast<std::size_t>(std::count(is_met.begin(), is_met.end(), true)),
-                   "halo: one message comes from each other rank that owns ghosts of this one");
+            const auto met = static_cast<std::size_t>(std::count(is_met.begin(), is_met.end(), true));
+            judge_.expect(halo.received_messages() == met,
+                          "halo: one message comes from each other rank that owns ghosts of this one");
         }
     }
     /// After particles have come or gone.
-    template <class Halo>
-    void examine_stale(Halo& halo) {
+    void examine_stale(halo_type& halo) {
         const auto refuses = [&](auto&& use) {
             try {
                 use();
@@ -444,29 +516,22 @@ private:
             return false;
         };
         store_.add_ghosts(1);
-        expect(refuses([&] { halo.forward(store_, tally); }) && refuses([&] { halo.reverse(store_, tally); }),
-               "halo: a store with other ghosts is refused");
+        judge_.expect(refuses([&] { halo.forward(store_, tally); }) && refuses([&] { halo.reverse(store_, tally); }),
+                      "halo: a store with other ghosts is refused");
         store_.clear_ghosts();
         store_.push_back();
-        expect(refuses([&] { halo.forward(store_, tally); }) && refuses([&] { halo.finish_forward(store_, tally); }),
-               "halo: a store with other particles is refused");
+        judge_.expect(refuses([&] { halo.forward(store_, tally); }) &&
+                          refuses([&] { halo.finish_forward(store_, tally); }),
+                      "halo: a store with other particles is refused");
         store_.swap_remove(store_.owned_count() - 1);
-    }
-
-    void expect(bool kept, const char* law) {
-        if (kept) return check_(true, std::string_view(law));
-        check_(false, std::string_view(std::string(law) + "; rank " + std::to_string(on_.rank()) + " of " +
-                                       std::to_string(on_.ranks()) + ", D = " + std::to_string(D) + ", cutoff " +
-                                       std::to_string(static_cast<double>(cutoff_)) + ", seed " +
-                                       std::to_string(seed_)));
     }
 
     const Parts& parts_;
     Transport& on_;
-    Pattern pattern_;
+    bool is_staged_;
     Real cutoff_;
     std::uint64_t seed_;
-    Check& check_;
+    halo_verdict judge_;
     store_type store_;
     std::vector<position_type> all_;
     std::vector<tsubu::rank_t> home_;
@@ -475,19 +540,10 @@ private:
 /// As many particles as leave some thousand images.
 [[nodiscard]] inline std::size_t count_for(double cutoff) { return cutoff < 0.2 ? 90 : cutoff < 1 ? 50 : 14; }
 
-template <class Layout = tsubu::soa, class Parts, class Transport, class Pattern, class Check>
-void ghosts_are_images(const Parts& parts, Transport& on, const Pattern& pattern, double cutoff, Check& check) {
-    using real = typename Parts::real_type;
-    ghosts_of<Parts, Transport, Pattern, Check, Layout> all(parts, on, pattern, static_cast<real>(cutoff),
-                                                            11 + on.ranks(), count_for(cutoff), check);
+template <class Layout = tsubu::soa, class Parts, class Transport>
+void ghosts_are_images(const Parts& parts, Transport& on, passed how, double cutoff, verdict& seen) {
+    ghosts_of<Parts, Transport, Layout> all(parts, on, how, cutoff, 11 + on.ranks(), count_for(cutoff), seen);
     all.examine();
-}
-/// The same by all patterns that take these parts.
-template <class Layout = tsubu::soa, class Parts, class Transport, class Check>
-void ghosts_are_images(const Parts& parts, Transport& on, double cutoff, Check& check) {
-    ghosts_are_images<Layout>(parts, on, tsubu::direct_pattern{}, cutoff, check);
-    if constexpr (tsubu::halo_pattern<tsubu::staged_pattern, Parts>)
-        ghosts_are_images<Layout>(parts, on, tsubu::staged_pattern{}, cutoff, check);
 }
 
 }  // namespace comm_laws

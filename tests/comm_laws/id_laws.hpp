@@ -93,8 +93,8 @@ void new_ids_never_collide(Transport& on, std::uint64_t seed, Check&& check) {
                 ++handed_out;
             }
     }
-    check(ids.next() == static_cast<std::uint64_t>(*std::max_element(dealt.all.begin(), dealt.all.end())) + 1 + handed_out,
-          "new ids: without gaps");
+    const auto greatest = static_cast<std::uint64_t>(*std::max_element(dealt.all.begin(), dealt.all.end()));
+    check(ids.next() == greatest + 1 + handed_out, "new ids: without gaps");
     tsubu::new_ids<std::int32_t> few(2147483640);
     check(says(thrown<tsubu::limit_error>([&] { static_cast<void>(few.take(on, on.rank() == 0 ? 9 : 0)); }), "9 ids"),
           "new ids: refused past the type");

@@ -21,7 +21,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace comm_laws {
@@ -183,22 +186,30 @@ template <std::size_t D, class Scalar>
     }(std::make_index_sequence<D>{});
     return {even.whole(), tables};
 }
-/// body(parts) for bricks, uneven bricks, and a bisection of points of which most are near the lower faces.
-template <class Box, class Body>
-void each_decomposition(const Box& where, std::size_t ranks, Body&& body) {
+
+/// The decomposition of a box that has this one of its cell.
+template <class Box, class Parts>
+[[nodiscard]] auto in_box(const Box& where, const Parts& parts) {
+    if constexpr (std::is_same_v<Box, typename Parts::box_type>)
+        return parts;
+    else
+        return tsubu::cell_decomposition(where, parts);
+}
+template <class Box>
+[[nodiscard]] auto bricks_of(const Box& where, std::size_t ranks) {
+    return in_box(where, tsubu::brick_decomposition<Box::dimension, typename Box::scalar_type>(where.cell(), ranks));
+}
+template <class Box>
+[[nodiscard]] auto uneven_bricks_of(const Box& where, std::size_t ranks) {
+    return in_box(where,
+                  uneven(tsubu::brick_decomposition<Box::dimension, typename Box::scalar_type>(where.cell(), ranks)));
+}
+/// Of points of which most are near the lower faces.
+template <class Box>
+[[nodiscard]] auto bisection_of(const Box& where, std::size_t ranks) {
     constexpr auto D = Box::dimension;
     using Scalar = typename Box::scalar_type;
     const auto& cell = where.cell();
-    using cell_type = std::remove_cvref_t<decltype(cell)>;
-    const auto in_box = [&](auto parts) {
-        if constexpr (std::is_same_v<Box, cell_type>)
-            body(parts);
-        else
-            body(tsubu::cell_decomposition(where, std::move(parts)));
-    };
-    const tsubu::brick_decomposition<D, Scalar> bricks(cell, ranks);
-    in_box(bricks);
-    in_box(uneven(bricks));
     auto sample = points_in(cell, 200, 9);
     if constexpr (!tsubu::is_lattice<Scalar>)
         for (auto& x : sample)
@@ -206,7 +217,59 @@ void each_decomposition(const Box& where, std::size_t ranks, Body&& body) {
                 const auto u = (x[k] - cell.along(k).lo()) / cell.along(k).length();
                 x[k] = cell.along(k).lo() + u * u * cell.along(k).length();
             }
-    in_box(tsubu::bisection_decomposition<D, Scalar>(cell, ranks, sample));
+    return in_box(where, tsubu::bisection_decomposition<D, Scalar>(cell, ranks, sample));
+}
+
+/// Bricks or a bisection, as is found when the program runs: what takes parts is compiled once for a box, not once for
+/// each kind. It has what the concept asks for, and no more.
+template <class Box>
+class any_parts {
+    using bricks_type = decltype(bricks_of(std::declval<const Box&>(), 1));
+    using bisection_type = decltype(bisection_of(std::declval<const Box&>(), 1));
+
+public:
+    using box_type = Box;
+    using scalar_type = typename Box::scalar_type;
+    using real_type = typename Box::real_type;
+    using position_type = typename Box::position_type;
+    static constexpr std::size_t dimension = Box::dimension;
+
+    explicit any_parts(const bricks_type& bricks) : bricks_(bricks) {}
+    explicit any_parts(const bisection_type& bisection) : bisection_(bisection) {}
+
+    [[nodiscard]] const Box& whole() const noexcept { return bricks_ ? bricks_->whole() : bisection_->whole(); }
+    [[nodiscard]] std::size_t ranks() const noexcept { return bricks_ ? bricks_->ranks() : bisection_->ranks(); }
+    [[nodiscard]] tsubu::rank_t owner(const position_type& x) const noexcept {
+        return bricks_ ? bricks_->owner(x) : bisection_->owner(x);
+    }
+    void owner(const tsubu::points<dimension, const scalar_type>& x, std::span<tsubu::rank_t> owners) const {
+        bricks_ ? bricks_->owner(x, owners) : bisection_->owner(x, owners);
+    }
+    [[nodiscard]] auto subdomain(std::size_t rank) const {
+        return bricks_ ? bricks_->subdomain(rank) : bisection_->subdomain(rank);
+    }
+    [[nodiscard]] std::vector<tsubu::neighbor_rank<dimension>> neighbors(std::size_t rank, real_type cutoff) const {
+        return bricks_ ? bricks_->neighbors(rank, cutoff) : bisection_->neighbors(rank, cutoff);
+    }
+
+private:
+    std::optional<bricks_type> bricks_;
+    std::optional<bisection_type> bisection_;
+};
+static_assert(tsubu::decomposition<any_parts<tsubu::domain<2>>> && tsubu::decomposition<any_parts<tsubu::wedge<>>>);
+
+/// body(parts) for bricks, uneven bricks, and a bisection.
+template <class Box, class Body>
+void each_decomposition(const Box& where, std::size_t ranks, Body&& body) {
+    body(any_parts<Box>(bricks_of(where, ranks)));
+    body(any_parts<Box>(uneven_bricks_of(where, ranks)));
+    body(any_parts<Box>(bisection_of(where, ranks)));
+}
+/// body(parts) for bricks and uneven ones, by their own type.
+template <class Box, class Body>
+void each_kind_of_bricks(const Box& where, std::size_t ranks, Body&& body) {
+    body(bricks_of(where, ranks));
+    body(uneven_bricks_of(where, ranks));
 }
 
 }  // namespace comm_laws

@@ -6,6 +6,7 @@
 #include <tsubu/comm/migrate.hpp>
 
 #include "comm_laws/known_particles.hpp"
+#include "support/verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,6 @@
 #include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace comm_laws {
@@ -25,7 +25,7 @@ namespace comm_laws {
 enum class at_first { everyone, the_last_rank, owners };
 
 /// All particles of all ranks, moved and wrapped as they ought to be, and the store of this rank beside them.
-template <class Parts, class Transport, class Check, class Layout = tsubu::soa>
+template <class Parts, class Transport, class Layout = tsubu::soa>
 class migrations {
     static constexpr auto D = Parts::dimension;
     using Scalar = typename Parts::scalar_type;
@@ -44,8 +44,8 @@ class migrations {
 public:
     using store_type = known_store<Parts, Layout>;
 
-    migrations(const Parts& parts, Transport& on, std::uint64_t seed, std::size_t count, at_first first, Check& check)
-        : parts_(parts), on_(on), seed_(seed), check_(check) {
+    migrations(const Parts& parts, Transport& on, std::uint64_t seed, std::size_t count, at_first first, verdict& seen)
+        : parts_(parts), on_(on), seed_(seed), seen_(seen) {
         const auto points = points_in(parts.whole(), count, seed);
         for (std::size_t t = 0; t < count; ++t) {
             known one{points[t], {}, velocity_of<D, Real>(static_cast<std::int64_t>(t)), 0};
@@ -296,16 +296,15 @@ private:
         return y;
     }
     void expect(bool kept, const char* law) {
-        if (kept) return check_(true, std::string_view(law));
-        check_(false, std::string_view(std::string(law) + "; rank " + std::to_string(on_.rank()) + " of " +
-                                       std::to_string(on_.ranks()) + ", step " + std::to_string(number_) + ", seed " +
-                                       std::to_string(seed_)));
+        if (kept) return seen_(true, law);
+        seen_(false, law + ("; rank " + std::to_string(on_.rank()) + " of " + std::to_string(on_.ranks()) + ", step " +
+                            std::to_string(number_) + ", seed " + std::to_string(seed_)));
     }
 
     const Parts& parts_;
     Transport& on_;
     std::uint64_t seed_;
-    Check& check_;
+    verdict& seen_;
     store_type store_;
     std::vector<known> all_;
     std::vector<std::size_t> gone_;
@@ -313,10 +312,10 @@ private:
 };
 
 /// Random motion over some steps; then one particle is nowhere.
-template <class Layout = tsubu::soa, class Parts, class Transport, class Check>
+template <class Layout = tsubu::soa, class Parts, class Transport>
 void migrate_keeps_all(const Parts& parts, Transport& on, std::uint64_t seed, std::size_t count, std::size_t steps,
-                       Check& check, at_first first = at_first::everyone) {
-    migrations<Parts, Transport, Check, Layout> all(parts, on, seed, count, first, check);
+                       verdict& seen, at_first first = at_first::everyone) {
+    migrations<Parts, Transport, Layout> all(parts, on, seed, count, first, seen);
     for (std::size_t k = 0; k < steps; ++k) all.step(k);
     if constexpr (!tsubu::is_lattice<typename Parts::scalar_type>) {
         all.refuse_nan();
@@ -324,9 +323,9 @@ void migrate_keeps_all(const Parts& parts, Transport& on, std::uint64_t seed, st
     }
 }
 /// Particles leave through a face that is not periodic.
-template <class Parts, class Transport, class Check>
-void migrate_settles_the_lost(const Parts& parts, Transport& on, std::uint64_t seed, std::size_t axis, Check& check) {
-    migrations<Parts, Transport, Check> all(parts, on, seed, 60, at_first::everyone, check);
+template <class Layout = tsubu::soa, class Parts, class Transport>
+void migrate_settles_the_lost(const Parts& parts, Transport& on, std::uint64_t seed, std::size_t axis, verdict& seen) {
+    migrations<Parts, Transport, Layout> all(parts, on, seed, 60, at_first::everyone, seen);
     all.step(0);
     all.lose(axis);
 }

@@ -9,24 +9,23 @@
 #include "support/verdict.hpp"
 
 #include <cstddef>
-#include <set>
-#include <string>
+#include <functional>
 #include <vector>
 
 namespace comm_laws {
 
 inline constexpr std::size_t some_ranks[] = {1, 2, 3, 4, 8};
 
+using body_on_rank = std::function<void(tsubu::local_transport&, verdict&)>;
+
 /// body(on, check) as each rank; the verdicts of all.
-template <class Body>
-[[nodiscard]] std::vector<verdict> verdicts_of(std::size_t ranks, Body&& body) {
+[[nodiscard]] inline std::vector<verdict> verdicts_of(std::size_t ranks, const body_on_rank& body) {
     std::vector<verdict> seen(ranks);
     tsubu::run_ranks(ranks, [&](tsubu::local_transport& on) { body(on, seen[on.rank()]); });
     return seen;
 }
 /// CHECKs that all laws that body(on, check) examines are kept on all ranks, and that each rank examined some.
-template <class Body>
-void check_on_ranks(std::size_t ranks, Body&& body) {
+inline void check_on_ranks(std::size_t ranks, const body_on_rank& body) {
     const auto seen = verdicts_of(ranks, body);
     for (std::size_t rank = 0; rank < ranks; ++rank) {
         INFO("rank " << rank << " of " << ranks << ": " << seen[rank].first);

@@ -32,25 +32,28 @@ TEST_CASE("threads keep all laws of a transport", "[comm][conformance]") {
         comm_laws::check_on_ranks(ranks, [&](auto& on, verdict& seen) { check_transport(on, ranks, 60, seen); });
 }
 
-TEMPLATE_LIST_TEST_CASE("a broken transport is caught by the number of its law", "[comm][conformance]",
-                        broken::transport_twins) {
-    static_assert(tsubu::transport<TestType>);
-    const auto seen = comm_laws::verdicts_of(3, [](auto& on, verdict& here) {
-        TestType twin(on);
-        check_transport(twin, 1, 60, here);
-    });
-    std::set<std::string> all;
-    for (const auto& one : seen) {
-        all.insert(one.broken.begin(), one.broken.end());
-        if (!one.first.empty()) UNSCOPED_INFO(one.first);
+TEST_CASE("a broken transport is caught by the number of its law", "[comm][conformance]") {
+    for (const auto& broken_one : broken::transport_twins()) {
+        const auto seen = comm_laws::verdicts_of(3, [&](auto& on, verdict& here) {
+            const auto twin = broken_one.make(on);
+            check_transport(*twin, 1, 60, here);
+        });
+        std::set<std::string> all;
+        std::string first;
+        for (const auto& one : seen) {
+            all.insert(one.broken.begin(), one.broken.end());
+            first += one.first + "\n";
+        }
+        INFO(broken_one.name << ": " << first);
+        CHECK(all == std::set<std::string>{broken_one.breaks});
     }
-    CHECK(all == std::set<std::string>{TestType::breaks});
 }
 
 TEST_CASE("the text of a broken law of a transport names the rank, the step and the seed", "[comm][conformance]") {
     const auto seen = comm_laws::verdicts_of(2, [](auto& on, verdict& here) {
         broken::sum_with_its_own twin(on);
-        check_transport(twin, 77, 5, here);
+        broken::sound_transport& as_one = twin;
+        check_transport(as_one, 77, 5, here);
     });
     INFO(seen[1].first);
     CHECK(seen[1].first.rfind("law 4: ", 0) == 0);

@@ -11,14 +11,15 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <functional>
 
 namespace comm_laws {
 
 inline constexpr std::size_t ordinary_words = std::size_t{1} << 27;
 
 /// CHECKs that all laws that body(on, check) examines are kept, and that some are examined.
-template <class Body>
-void check_in(MPI_Comm over, std::size_t most_words, Body&& body) {
+inline void check_in(MPI_Comm over, std::size_t most_words,
+                     const std::function<void(tsubu::mpi_transport&, verdict&)>& body) {
     verdict seen;
     try {
         tsubu::mpi_transport on(over, most_words);
@@ -31,8 +32,7 @@ void check_in(MPI_Comm over, std::size_t most_words, Body&& body) {
     CHECK(seen.broken.empty());
     CHECK(seen.checked > 0);
 }
-template <class Body>
-void check_in_world(Body&& body) {
+inline void check_in_world(const std::function<void(tsubu::mpi_transport&, verdict&)>& body) {
     check_in(MPI_COMM_WORLD, ordinary_words, body);
 }
 [[nodiscard]] inline std::size_t world_size() {

@@ -88,22 +88,23 @@ TEST_CASE("the same id everywhere is one duplicate, named with the lowest and th
     const auto twice = ask(std::vector<std::uint64_t>(1000, (std::numeric_limits<std::uint64_t>::max)()));
     CHECK(twice.total == 1);
     CHECK(twice.here == std::vector{tsubu::duplicate_id<std::uint64_t>{(std::numeric_limits<std::uint64_t>::max)(), 0,
-                                                                       here.size - 1}});
+                                                                       static_cast<tsubu::rank_t>(here.size - 1)}});
 }
 
 TEST_CASE("reports agree with a map of all owners", "[comm][duplicates][T5][T6][A13]") {
     const world here;
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         const std::uint64_t range = seed % 2 == 0 ? 40 : 4000;
-        std::map<std::int64_t, std::multiset<int>> owners;
+        std::map<std::int64_t, std::multiset<tsubu::rank_t>> owners;
         for (int r = 0; r < here.size; ++r)
-            for (const auto id : ids_of(seed, r, range)) owners[id].insert(r);
+            for (const auto id : ids_of(seed, r, range)) owners[id].insert(static_cast<tsubu::rank_t>(r));
         std::vector<tsubu::duplicate_id<std::int64_t>> expected;
         std::uint64_t total = 0;
         for (const auto& [id, ranks] : owners) {
             if (ranks.size() < 2) continue;
             ++total;
-            if (ranks.count(here.rank) != 0) expected.push_back({id, *ranks.begin(), *ranks.rbegin()});
+            if (ranks.count(static_cast<tsubu::rank_t>(here.rank)) != 0)
+                expected.push_back({id, *ranks.begin(), *ranks.rbegin()});
         }
         const auto twice = ask(ids_of(seed, here.rank, range));
         INFO("seed " << seed << ", rank " << here.rank);

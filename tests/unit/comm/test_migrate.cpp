@@ -20,7 +20,6 @@ using comm_laws::some_ranks;
 using comm_laws::tilted_box_of;
 using comm_laws::wedge_of;
 
-
 template <class Layout = tsubu::soa, class Box>
 void check_motion(const Box& box, at_first first = at_first::everyone) {
     for (const auto ranks : some_ranks)
@@ -30,26 +29,35 @@ void check_motion(const Box& box, at_first first = at_first::everyone) {
             });
         });
 }
+/// @param axis  whose faces are not periodic
+template <class Layout = tsubu::soa, class Box>
+void check_losses(const Box& box, std::size_t axis) {
+    for (const auto ranks : some_ranks)
+        each_decomposition(box, ranks, [&](const auto& parts) {
+            check_on_ranks(ranks, [&](auto& on, verdict& seen) {
+                comm_laws::migrate_settles_the_lost<Layout>(parts, on, ranks, axis, seen);
+            });
+        });
+}
 
 }  // namespace
 
+// Layouts and boxes are met in pairs, not in all combinations: what is compiled is dear.
 TEST_CASE("no particle is lost or doubled in boxes with right angles", "[comm][migrate]") {
-    check_motion(box_of<1>(1));
+    check_motion<tsubu::aosoa<8>>(box_of<1>(1));
     check_motion(box_of<2>(1));
     check_motion(box_of<3>(7));
 }
 TEST_CASE("no particle is lost or doubled in boxes that are sheared, or sectors", "[comm][migrate]") {
-    check_motion(tilted_box_of<2>(0.4, 3));
+    check_motion<tsubu::aos>(tilted_box_of<2>(0.4, 3));
     check_motion(tilted_box_of<3>(1.7, 5));
     check_motion(wedge_of(2));
     check_motion(wedge_of(6));
 }
-TEST_CASE("particles of all scalars and layouts migrate", "[comm][migrate]") {
+TEST_CASE("particles of all scalars migrate", "[comm][migrate]") {
     check_motion(box_of<2, float>(3));
     check_motion(box_of<3, tsubu::lattice<std::int32_t>>(7));
     check_motion(box_of<2, tsubu::lattice<std::int64_t>>(3));
-    check_motion<tsubu::aos>(box_of<3>(3));
-    check_motion<tsubu::aosoa<8>>(box_of<2>(3));
 }
 TEST_CASE("one rank that has all particles sends them to the others", "[comm][migrate]") {
     check_motion(box_of<2>(3), at_first::the_last_rank);
@@ -65,32 +73,24 @@ TEST_CASE("few particles leave most ranks empty", "[comm][migrate]") {
 TEST_CASE("a program of one process migrates without threads", "[comm][migrate]") {
     tsubu::self_transport on;
     verdict seen;
-    each_decomposition(box_of<3>(5), 1, [&](const auto& parts) { migrate_keeps_all(parts, on, 3, 50, 40, seen); });
+    migrate_keeps_all(comm_laws::bisection_of(box_of<3>(5), 1), on, 3, 50, 40, seen);
     INFO(seen.first);
     CHECK(seen.broken.empty());
+    CHECK(seen.checked > 0);
 }
 TEST_CASE("particles that have left the box are refused, collected or clamped", "[comm][migrate]") {
-    const auto check = [](const auto& box, std::size_t axis) {
-        for (const auto ranks : some_ranks)
-            each_decomposition(box, ranks, [&](const auto& parts) {
-                check_on_ranks(ranks, [&](auto& on, verdict& seen) {
-                    comm_laws::migrate_settles_the_lost(parts, on, ranks, axis, seen);
-                });
-            });
-    };
-    check(box_of<1>(0), 0);
-    check(box_of<2>(1), 1);
-    check(box_of<3>(3), 2);
-    check(box_of<2, float>(2), 0);
-    check(tilted_box_of<2>(0.4, 1), 1);
-    check(tilted_box_of<3>(0.7, 2), 2);
-    check(wedge_of(5), 1);
+    check_losses<tsubu::aosoa<8>>(box_of<1>(0), 0);
+    check_losses(box_of<2, float>(2), 0);
+    check_losses(box_of<3>(3), 2);
+    check_losses<tsubu::aos>(tilted_box_of<2>(0.4, 1), 1);
+    check_losses(tilted_box_of<3>(0.7, 2), 2);
+    check_losses(wedge_of(5), 1);
 }
 TEST_CASE("a decomposition for other ranks is refused on all", "[comm][migrate]") {
     const auto box = box_of<2>(3);
     for (const auto ranks : some_ranks) {
-        const tsubu::brick_decomposition<2> bricks(box, ranks);
-        const tsubu::brick_decomposition<2> more(box, ranks + 1);
+        const comm_laws::any_parts<tsubu::domain<2>> bricks(comm_laws::bricks_of(box, ranks));
+        const comm_laws::any_parts<tsubu::domain<2>> more(comm_laws::bricks_of(box, ranks + 1));
         check_on_ranks(ranks, [&](auto& on, verdict& seen) {
             comm_laws::migrations all(bricks, on, 3, 20, at_first::owners, seen);
             all.refuse_other_ranks(more);

@@ -66,7 +66,8 @@ TEST_CASE("a run goes on from four to three to seven ranks bit for bit", "[comm]
         tsubu::random_stream random(5 + on.rank());
         for (int k = 0; k < 300; ++k) {
             const auto i = static_cast<std::size_t>(
-                g.push_back(tsubu::id = 1000 * std::int64_t{on.rank()} + k, tsubu::velocity<3> = {random.unit(), -0.0, 1e-310},
+                g.push_back(tsubu::id = 1000 * std::int64_t{on.rank()} + k,
+                            tsubu::velocity<3> = {random.unit(), -0.0, 1e-310},
                             tsubu::position<3> = {random.unit(), 2 * random.unit(), 3 * random.unit()}));
             for (int n = 0; n < k % 4; ++n) g[contacts][i].push_back({k + n, random.unit()});
         }

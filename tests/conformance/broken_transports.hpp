@@ -51,6 +51,7 @@ public:
     [[nodiscard]] virtual mailbox gather(std::span<const std::uint64_t> words) { return on_.gather(words); }
     [[nodiscard]] virtual std::uint64_t sum_before(std::uint64_t n) { return on_.sum_before(n); }
     [[nodiscard]] virtual int next_tag() { return on_.next_tag(); }
+    [[nodiscard]] message_memory& memory() noexcept { return on_.memory(); }
     [[nodiscard]] virtual std::unique_ptr<sound_way> open(int tag, std::vector<lane> out, std::vector<lane> in) {
         return make_way<sound_way>(tag, std::move(out), std::move(in));
     }
@@ -217,7 +218,7 @@ struct gathers_from_itself_on : sound_transport {
     static constexpr const char* breaks = "law 3";
     using sound_transport::sound_transport;
     mailbox gather(std::span<const std::uint64_t> words) override {
-        const auto all = sound_transport::gather(words);
+        auto all = sound_transport::gather(words);
         if (words.size() < 3) return all;
         mailbox turned;
         for (std::size_t k = 0; k < ranks(); ++k) turned.add(all[(rank() + k) % ranks()]);

@@ -27,6 +27,8 @@ struct parcel {
 class mailbox {
 public:
     mailbox() = default;
+    mailbox(mailbox&&) noexcept = default;
+    mailbox& operator=(mailbox&&) noexcept = default;
     /// @param from  what its words lie in
     explicit mailbox(message_memory from) noexcept : memory_(std::move(from)) {}
 

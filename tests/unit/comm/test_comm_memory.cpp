@@ -20,6 +20,9 @@
 
 namespace {
 
+using counted_memory::granted;
+using counted_memory::no_limit;
+
 constexpr tsubu::field<"contacts", tsubu::list_of<std::int64_t>> contacts{};
 using store_type = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<2>, tsubu::radius, contacts>>;
 constexpr std::size_t ranks = 3;

@@ -33,6 +33,10 @@
 
 namespace {
 
+using counted_memory::granted;
+using counted_memory::no_limit;
+using counted_memory::times_asked;
+
 constexpr tsubu::field<"contacts", tsubu::list_of<std::int64_t>> contacts{};
 constexpr tsubu::field<"marks", tsubu::list_of<float>> marks{};
 constexpr tsubu::field<"charge", tsubu::bonus_of<double>> charge{};

@@ -10,11 +10,19 @@
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
 #include <exception>  // std::exception_ptr
+#include <new>        // std::bad_alloc
 #include <span>       // std::span
 #include <string>     // std::string
 #include <utility>    // std::forward
 
 namespace tsubu {
+
+/// Thrown on ranks that have not failed themselves, if another failed by what is neither input nor limit: a file, or what
+/// a user's function throws.
+class other_rank_error : public error {
+public:
+    using error::error;
+};
 
 /// Work that is local, in an operation of all ranks: what it throws is kept until all have been told.
 ///
@@ -39,8 +47,12 @@ public:
             std::forward<Work>(work)();
         } catch (const input_error&) {
             fail(refused);
-        } catch (...) {  // limit_error, std::bad_alloc, what a user's function throws
+        } catch (const limit_error&) {
             fail(exhausted);
+        } catch (const std::bad_alloc&) {
+            fail(exhausted);
+        } catch (...) {
+            fail(failed);
         }
     }
     [[nodiscard]] bool has_failed_here() const noexcept { return own_ != nullptr; }
@@ -49,23 +61,30 @@ public:
     /// What is to be summed over all ranks.
     [[nodiscard]] std::span<std::uint64_t> words() noexcept { return {words_.data(), words_.size()}; }
     /// Whether a rank has failed; after the reduction.
-    [[nodiscard]] bool has_failed() const noexcept { return words_[refused] != 0 || words_[exhausted] != 0; }
+    [[nodiscard]] bool has_failed() const noexcept { return failures() != 0; }
     /// After the reduction. @throws on all ranks or none: on a rank that has failed what its work threw; on the others
-    /// an input_error if one has refused its input, else a limit_error, with the rank, or how many they are.
-    void settle(const char* where) const {
+    /// an input_error if one has refused its input, else a limit_error if one exceeded a limit or its memory, else an
+    /// other_rank_error, with the rank, or how many they are.
+    /// @param left  how things are then, for the message
+    void settle(const char* where, const char* left = "nothing was done on any rank") const {
         if (own_) std::rethrow_exception(own_);
-        const auto failed = words_[refused] + words_[exhausted];
-        if (failed == 0) return;
+        if (!has_failed()) return;
         // The sum of their numbers, which for one is its own.
-        const auto who = failed == 1 ? "rank " + std::to_string(words_[which]) : std::to_string(failed) + " ranks";
-        if (words_[refused] != 0) detail::raise<input_error>(where, who + " refused the input", remedy);
-        detail::raise<limit_error>(where, who + " exceeded a limit, or the memory", remedy);
+        const auto who =
+            failures() == 1 ? "rank " + std::to_string(words_[which]) : std::to_string(failures()) + " ranks";
+        const auto remedy = "see the message there; " + std::string(left);
+        if (words_[refused] != 0) detail::raise<input_error>(where, who + " refused the input", remedy.c_str());
+        if (words_[exhausted] != 0)
+            detail::raise<limit_error>(where, who + " exceeded a limit, or the memory", remedy.c_str());
+        detail::raise<other_rank_error>(where, who + " failed", remedy.c_str());
     }
 
 private:
-    enum place : std::size_t { refused, exhausted, which, own_words };
-    static constexpr const char* remedy = "see the message there; nothing was done on any rank";
+    enum place : std::size_t { refused, exhausted, failed, which, own_words };
 
+    [[nodiscard]] std::uint64_t failures() const noexcept {
+        return words_[refused] + words_[exhausted] + words_[failed];
+    }
     void fail(place how) noexcept {
         own_ = std::current_exception();
         words_[how] = 1;

@@ -76,7 +76,10 @@ public:
     }
 
     /// The ghosts get these fields of their owners.
-    /// @throws input_error if the store has other particles than when the halo was made; what the transport throws.
+    /// @param store  the one that the halo was made for, or a copy
+    /// @throws input_error if particles have come, gone or been permuted since the halo was made, or a forward is under
+    ///         way; std::bad_alloc in the first call for fields of one size; what the transport throws. Each rank for
+    ///         itself: particles come and go by migrate, which all ranks call.
     template <class Store, particle_field... Field>
     void forward(Store& store, Field... which) {
         start_forward(store, which...);
@@ -86,12 +89,15 @@ public:
     /// particles are changed to in between goes to ghosts only if the pattern has several steps.
     template <class Store, particle_field... Field>
     void start_forward(const Store& store, Field...) {
-        check<Store, Field...>(store, "halo::forward");
+        check<Store, Field...>(store, "halo::start_forward");
+        begin(forward_under_way_, key_of<Field...>(), "halo::start_forward");
         if (!rounds_.empty()) rounds_.front().start_forward(store, fields<Field{}...>{});
     }
+    /// The second half, for the same fields. @throws input_error if they are not under way.
     template <class Store, particle_field... Field>
     void finish_forward(Store& store, Field...) {
-        check<Store, Field...>(store, "halo::forward");
+        check<Store, Field...>(store, "halo::finish_forward");
+        end(forward_under_way_, key_of<Field...>(), "halo::finish_forward");
         constexpr fields<Field{}...> set{};
         for (std::size_t k = 0; k < rounds_.size(); ++k) {
             if (k != 0) rounds_[k].start_forward(store, set);
@@ -99,22 +105,27 @@ public:
         }
     }
 
-    /// What ghosts hold of these fields is added to their owners: as each field says, by sum, least or greatest. Ghosts
-    /// keep theirs, but for those that have passed on what other ghosts added to them. In the order of steps, ranks and
-    /// shifts: the same on every run.
+    /// What ghosts hold of these fields is added to their owners: as each field says, by sum, least or greatest. In the
+    /// order of steps, ranks and shifts: the same on every run. What ghosts hold afterwards is theirs with one step, and
+    /// unspecified with several, where ghosts pass on what others have added to them.
+    /// @throws as forward.
     template <class Store, particle_field... Field>
     void reverse(Store& store, Field... which) {
         start_reverse(store, which...);
         finish_reverse(store, which...);
     }
+    /// The first half; a forward may be under way too.
     template <class Store, particle_field... Field>
     void start_reverse(const Store& store, Field...) {
-        check<Store, Field...>(store, "halo::reverse");
+        check<Store, Field...>(store, "halo::start_reverse");
+        begin(reverse_under_way_, key_of<Field...>(), "halo::start_reverse");
         if (!rounds_.empty()) rounds_.back().start_reverse(store, fields<Field{}...>{});
     }
+    /// The second half, for the same fields. @throws input_error if they are not under way.
     template <class Store, particle_field... Field>
     void finish_reverse(Store& store, Field...) {
-        check<Store, Field...>(store, "halo::reverse");
+        check<Store, Field...>(store, "halo::finish_reverse");
+        end(reverse_under_way_, key_of<Field...>(), "halo::finish_reverse");
         constexpr fields<Field{}...> set{};
         for (auto k = rounds_.size(); k-- > 0;) {
             if (k + 1 != rounds_.size()) rounds_[k].start_reverse(store, set);
@@ -144,6 +155,26 @@ private:
                                            std::to_string(store.ghost_count()) + " ghosts; this halo was made for " +
                                            std::to_string(owned_) + " and " + std::to_string(shifts_.size()),
                                        "make it anew after particles have come or gone");
+        if (store.revision() != revision_)
+            detail::raise<input_error>(where, "particles have come, gone or been permuted since this halo was made",
+                                       "make it anew, for this store");
+    }
+    // Which fields are under way: the address of something that each set of them has for itself.
+    template <class... Field>
+    [[nodiscard]] static const void* key_of() noexcept {
+        static char key = 0;
+        return &key;
+    }
+    static void begin(const void*& under_way, const void* key, const char* where) {
+        if (under_way != nullptr)
+            detail::raise<input_error>(where, "another one is under way", "finish it first; halos can be several");
+        under_way = key;
+    }
+    static void end(const void*& under_way, const void* key, const char* where) {
+        if (under_way != key)
+            detail::raise<input_error>(where, under_way == nullptr ? "nothing was started" : "other fields were started",
+                                       "finish the fields that were started, in the same order");
+        under_way = nullptr;
     }
     template <class Of>
     [[nodiscard]] std::size_t sum(Of&& of) const noexcept {
@@ -167,7 +198,8 @@ private:
                 [&](const mailbox& came) {
                     next.unpack_new(store, came, shifts_);
                     rounds_.push_back(std::move(next));
-                });
+                },
+                "there are no ghosts");
         } catch (...) {
             store.clear_ghosts();
             throw;
@@ -176,6 +208,9 @@ private:
 
     std::unique_ptr<const box_type> box_;  // where the rounds find it, wherever the halo is moved
     std::size_t owned_ = 0;
+    std::uint64_t revision_ = 0;  // of the store
+    const void* forward_under_way_ = nullptr;
+    const void* reverse_under_way_ = nullptr;
     std::vector<shift_type> shifts_;  // [ghosts]
     std::vector<round_type> rounds_;
 };
@@ -221,11 +256,12 @@ template <class Store, decomposition Parts, transport Transport, class Pattern =
         begins.reserve(begins.size() + steps.size());
     });
     on.reduce(before.words(), reduction::sum);
-    before.settle("make_halo");
+    before.settle("make_halo", "there are no ghosts");
     for (const auto& step : steps) {
         made.make_step(store, parts, on, step, begins);
         begins.push_back(store.size());
     }
+    made.revision_ = store.revision();
     return made;
 }
 

@@ -313,7 +313,8 @@ private:
 /// @return what this rank has sent and received
 /// @throws on all ranks or none: input_error if a position is not finite, or has left the box and may not (the message
 ///         names ids and positions), or the ranks are not those of the decomposition; limit_error, or std::bad_alloc on
-///         the rank itself, where memory is short. Every particle is on its rank then; those that left are wrapped.
+///         the rank itself, where memory is short. Every particle is on the rank where it was then, ghosts are cleared;
+///         those that had left may be wrapped, or clamped.
 /// Complexity: O(n) to see who leaves, all else by the leavers. 8 bytes to each rank that gets any, and their fields.
 /// Collective: yes; the same decomposition on all ranks. One reduction, another if a particle leaves; one message to
 ///             each rank that gets any.
@@ -339,7 +340,8 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
     } catch (const std::bad_alloc&) {  // of what came; the exchange is over
         after.attempt([] { throw; });
     }
-    before.settle("migrate");
+    constexpr auto left = "every particle is on the rank where it was, ghosts are cleared";
+    before.settle("migrate", left);
     if (before[sent] == 0 && before[lost] == 0) return {};
 
     constexpr bool collects = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
@@ -352,11 +354,11 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
     if (after.has_failed() || after[0] != before[sent]) {
         work.drop_arrivals();
         if constexpr (collects) detail::drop_rows(on_lost.into, collected_before);
-        after.settle("migrate");
+        after.settle("migrate", left);
         detail::raise<limit_error>("migrate",
                                    std::to_string(before[sent]) + " particles were sent, " + std::to_string(after[0]) +
                                        " have come",
-                                   "the transport loses messages; nothing was done on any rank");
+                                   "the transport loses messages; every particle is on the rank where it was");
     }
     work.remove_gone();
     return {work.sent(), work.received(), work.lost().size()};

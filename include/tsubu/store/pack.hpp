@@ -107,7 +107,7 @@ struct packer<fields<F...>> {
     }
     template <std::size_t K, class Field, class Column, class Settle>
     [[gnu::always_inline]] static void get_fixed(const std::uint64_t* from, const Column& column, std::size_t i,
-                                                 const Settle& settle) noexcept {
+                                                 const Settle& settle) {
         if constexpr (is_fixed<Field>) {
             std::memcpy(static_cast<void*>(&column[i]), from + place[K], sizeof(value<Field>));
             settle(std::remove_cv_t<Field>{}, column[i]);

@@ -118,6 +118,7 @@ public:
           memory_(other.memory_),
           size_(other.size_),
           owned_(other.owned_),
+          revision_(other.revision_),
           allocation_(other.allocation_ == nullptr ? nullptr : std::make_unique<std::uint64_t>(0)) {}
     particle_store(particle_store&& other) noexcept
         : pools_(std::exchange(other.pools_, pools())),
@@ -125,6 +126,7 @@ public:
           memory_(std::exchange(other.memory_, memory())),
           size_(std::exchange(other.size_, 0)),
           owned_(std::exchange(other.owned_, 0)),
+          revision_(other.revision_++),
           allocation_(std::move(other.allocation_)) {
         end_views();
     }
@@ -134,6 +136,7 @@ public:
         std::swap(memory_, other.memory_);
         std::swap(size_, other.size_);
         std::swap(owned_, other.owned_);
+        std::swap(revision_, other.revision_);
         if (allocation_ == nullptr) std::swap(allocation_, other.allocation_);
         end_views();
         return *this;
@@ -145,6 +148,9 @@ public:
     [[nodiscard]] std::size_t ghost_count() const noexcept { return size_ - owned_; }
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] std::size_t capacity() const noexcept { return memory_.capacity(); }
+    /// A number that is another after particles have come, gone, or been permuted: what holds indices can tell whether
+    /// they are of before. Rows that are assigned or sorted change nothing in it.
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
     /// What is held, lists and free room included.
     [[nodiscard]] std::size_t memory_bytes() const noexcept {
         auto bytes = memory_.memory_bytes();
@@ -209,9 +215,11 @@ public:
     }
     /// `count` owned particles more, all zeros; the index of the first. As push_back.
     std::size_t add_owned(std::size_t count) { return add_owned(count, fields<>{}); }
-    /// The same, but what these fields hold is not set: the caller does that. Lists and bonus values begin empty.
+    /// The same, but what these fields hold is not set: the caller sets it before it is read. Lists and bonus values
+    /// begin empty.
     template <auto... Unset>
     std::size_t add_owned(std::size_t count, fields<Unset...> unset) {
+        static_assert((has<decltype(Unset)> && ...), "the store lacks a field that is to be left unset");
         refuse_ghosts("particle_store::add_owned");
         const auto first = add(count, unset);
         owned_ = size_;
@@ -219,8 +227,10 @@ public:
     }
     /// `count` ghosts more, all zeros; the index of the first. As push_back_ghost.
     std::size_t add_ghosts(std::size_t count) { return add(count, fields<>{}); }
+    /// The same with fields that the caller sets.
     template <auto... Unset>
     std::size_t add_ghosts(std::size_t count, fields<Unset...> unset) {
+        static_assert((has<decltype(Unset)> && ...), "the store lacks a field that is to be left unset");
         return add(count, unset);
     }
     /// Removes all ghosts; their memory is kept for the next.
@@ -247,6 +257,7 @@ public:
             move_row(last, i);
         --owned_;
         --size_;
+        ++revision_;
         compact_if_due();
     }
     /// Removes owned particles: the last ones that stay move into their places, both in the order of indices.
@@ -275,6 +286,7 @@ public:
             }
         }
         size_ = owned_ = kept;
+        ++revision_;
         compact_if_due();
     }
     /// Particle i becomes particle order[i] of before, for all owned ones; one pass over each field.
@@ -287,6 +299,7 @@ public:
                                            std::to_string(owned_) + " owned particles",
                                        "give each index once");
         TSUBU_EXPECTS(is_permutation(order), "this is not a permutation; give each index once");
+        ++revision_;
         memory_.gather(order.data(), owned_);
         if (allocation_ != nullptr) ++*allocation_;
         if constexpr (has_bonus)
@@ -357,6 +370,7 @@ private:
         if (needed > capacity()) reallocate(growth_.next(capacity(), needed));
         const auto first = size_;
         size_ = needed;
+        ++revision_;
         each_value([&]<std::size_t K>() {
             constexpr bool lies_outside = kind_of<K>::is_list || kind_of<K>::is_bonus;
             if constexpr (lies_outside || !fields<Unset...>::template has<field_of<K>>)
@@ -372,6 +386,7 @@ private:
     void shrink(std::size_t count) noexcept {
         for (auto i = count; i < size_; ++i) release_row(i);
         size_ = count;
+        ++revision_;
     }
     template <class... Given>
     void set([[maybe_unused]] std::size_t i, const field_value<Given>&... given) {
@@ -532,6 +547,7 @@ private:
     memory memory_;
     std::size_t size_ = 0;
     std::size_t owned_ = 0;
+    std::uint64_t revision_ = 0;
     std::unique_ptr<std::uint64_t> allocation_;  // which one: see lease; there is a number if there is memory
 };
 

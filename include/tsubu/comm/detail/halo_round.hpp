@@ -52,13 +52,13 @@ class halo_round {
         std::size_t begin;  // in chosen_; or the index of the first ghost
         std::size_t count;
     };
-    // For records of one size: the ways of messages, and what this rank sends itself.
-    struct ways {
+    // For records of one size, one way: to other ranks, and what this rank sends itself.
+    struct way {
         std::size_t record;
-        typename Transport::channel forward;
-        typename Transport::channel reverse;
+        typename Transport::channel others;
         std::vector<std::uint64_t> here;
     };
+    using ways = std::vector<std::unique_ptr<way>>;  // found where they are while more come
 
 public:
     halo_round(const box_type& where, Transport& on)
@@ -144,16 +144,16 @@ public:
 
     template <class Store, auto... F>
     void start_forward(const Store& store, fields<F...> set) {
-        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
-        put(store, set, {chosen_.data(), chosen_.size()}, 0, outgoing_, way.forward.out(), way.here);
-        way.forward.start();
+        auto& to = forward_way(set);
+        put(store, set, {chosen_.data(), chosen_.size()}, 0, outgoing_, to);
+        to.others.start();
     }
     template <class Store, auto... F>
     void finish_forward(Store& store, fields<F...> set) {
-        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
-        way.forward.finish();
-        auto from_others = way.forward.in();
-        std::span<const std::uint64_t> from_here(way.here.data(), way.here.size());
+        auto& from = forward_way(set);
+        from.others.finish();
+        auto from_others = from.others.in();
+        std::span<const std::uint64_t> from_here(from.here.data(), from.here.size());
         for (const auto& one : incoming_) {
             auto& words = one.rank == rank_ ? from_here : from_others;
             words = words.subspan(take(store, one, words, set));
@@ -161,17 +161,17 @@ public:
     }
     template <class Store, auto... F>
     void start_reverse(const Store& store, fields<F...> set) {
-        auto& way = way_for(record_words<std::remove_cv_t<decltype(F)>...>);
-        put(store, set, {ghost_indices_.data(), ghost_indices_.size()}, first_, incoming_, way.reverse.out(), way.here);
-        way.reverse.start();
+        auto& to = reverse_way(set);
+        put(store, set, {ghost_indices_.data(), ghost_indices_.size()}, first_, incoming_, to);
+        to.others.start();
     }
     template <class Store, auto... F>
-    void finish_reverse(Store& store, fields<F...>) {
+    void finish_reverse(Store& store, fields<F...> set) {
         constexpr auto record = record_words<std::remove_cv_t<decltype(F)>...>;
-        auto& way = way_for(record);
-        way.reverse.finish();
-        const std::uint64_t* from_others = way.reverse.in().data();
-        const std::uint64_t* from_here = way.here.data();
+        auto& from = reverse_way(set);
+        from.others.finish();
+        const std::uint64_t* from_others = from.others.in().data();
+        const std::uint64_t* from_here = from.here.data();
         for (const auto& one : outgoing_) {
             auto& words = one.rank == rank_ ? from_here : from_others;
             std::size_t at = 0;
@@ -258,26 +258,33 @@ private:
         }
         return lanes;
     }
-    [[nodiscard]] ways& way_for(std::size_t record) {
-        for (const auto& one : ways_)
+    template <auto... F>
+    [[nodiscard]] way& forward_way(fields<F...>) {
+        return way_in(forward_, forward_tag_, outgoing_, incoming_, record_words<std::remove_cv_t<decltype(F)>...>);
+    }
+    template <auto... F>
+    [[nodiscard]] way& reverse_way(fields<F...>) {
+        return way_in(reverse_, reverse_tag_, incoming_, outgoing_, record_words<std::remove_cv_t<decltype(F)>...>);
+    }
+    [[nodiscard]] way& way_in(ways& all, int tag, const std::vector<segment>& out, const std::vector<segment>& in,
+                              std::size_t record) const {
+        for (const auto& one : all)
             if (one->record == record) return *one;
-        const auto out = lanes_of(outgoing_, record);
-        const auto in = lanes_of(incoming_, record);
         std::size_t here = 0;
-        for (const auto& one : outgoing_) here += one.rank == rank_ ? one.count * record : 0;
-        return *ways_.emplace_back(std::make_unique<ways>(ways{
-            record, typename Transport::channel(*on_, forward_tag_, out, in),
-            typename Transport::channel(*on_, reverse_tag_, in, out), std::vector<std::uint64_t>(here)}));
+        for (const auto& one : out) here += one.rank == rank_ ? one.count * record : 0;
+        return *all.emplace_back(std::make_unique<way>(
+            way{record, typename Transport::channel(*on_, tag, lanes_of(out, record), lanes_of(in, record)),
+                std::vector<std::uint64_t>(here)}));
     }
     /// @param indices  of the particles of the segments, which begin in them at `begin - first`
     template <class Store, auto... F>
     void put(const Store& store, fields<F...> set, std::span<const index_t> indices, std::size_t first,
-             const std::vector<segment>& segments, std::span<std::uint64_t> to_others,
-             std::vector<std::uint64_t>& here) const {
-        std::span<std::uint64_t> to_here(here.data(), here.size());
+             const std::vector<segment>& segments, way& to) const {
+        auto to_others = to.others.out();
+        std::span<std::uint64_t> to_here(to.here.data(), to.here.size());
         for (const auto& one : segments) {
-            auto& to = one.rank == rank_ ? to_here : to_others;
-            to = to.subspan(pack(store, set, indices.subspan(one.begin - first, one.count), to));
+            auto& words = one.rank == rank_ ? to_here : to_others;
+            words = words.subspan(pack(store, set, indices.subspan(one.begin - first, one.count), words));
         }
     }
     template <class Store, auto... F>
@@ -316,7 +323,8 @@ private:
     std::vector<index_t> ghost_indices_;  // first_, first_ + 1, ...
     std::vector<segment> outgoing_;
     std::vector<segment> incoming_;
-    std::vector<std::unique_ptr<ways>> ways_;  // found where they are while more come
+    ways forward_;
+    ways reverse_;
 };
 
 }  // namespace tsubu::detail

@@ -121,7 +121,7 @@ class raw_exchange {
 public:
     /// Doubles that go up and down, and that come from below and above.
     raw_exchange(const world& w, std::size_t up, std::size_t down, std::size_t from_below, std::size_t from_above)
-        : on_(w.on.communicator()), next_(w.next()), before_(w.before()) {
+        : on_(MPI_COMM_WORLD), next_(w.next()), before_(w.before()) {
         const bool is_one = next_ == before_;  // a message of all
         out_[0].assign(is_one ? up + down : up, 1);
         in_[0].assign(is_one ? from_below + from_above : from_below, 0);
@@ -170,7 +170,7 @@ private:
 class hand_migration {
 public:
     hand_migration(const world& w, const moving_store& g)
-        : on_(w.on.communicator()), next_(w.next()), before_(w.before()), length_(real(w.on.ranks())) {
+        : on_(MPI_COMM_WORLD), next_(w.next()), before_(w.before()), length_(real(w.on.ranks())) {
         const auto mine = w.row.subdomain(w.on.rank());
         lo_ = mine.lo()[0];
         hi_ = mine.hi()[0];
@@ -312,7 +312,7 @@ void run_migrate(world& w, std::size_t percent) {
 /// own, buffers that are there already, the shift added as particles are packed, ghosts received where they are to lie.
 class hand_written {
 public:
-    hand_written(const world& w, const pushed_store& g, double cutoff) : on_(w.on.communicator()) {
+    hand_written(const world& w, const pushed_store& g, double cutoff) : on_(MPI_COMM_WORLD) {
         const auto here = static_cast<int>(w.on.rank());
         const auto mine = w.row.subdomain(w.on.rank());
         const auto length = real(w.on.ranks());
@@ -547,7 +547,7 @@ void run_model(world& w, const std::array<std::size_t, 3>& grid) {
         add("forward/staged", forward_traffic<tsubu::staged_pattern>(bricks), 1);
         add("migrate/tsubu", migrate_traffic(bricks), model_steps);
     }
-    MPI_Barrier(w.on.communicator());
+    MPI_Barrier(MPI_COMM_WORLD);
 }
 
 // ---------------------------------------------------------------------------------------------------------------

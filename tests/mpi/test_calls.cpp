@@ -56,7 +56,8 @@ TEST_CASE("a transport duplicates its communicator, and frees the duplicate", "[
     INFO(seen.text());
     CHECK(seen.of("Comm_dup") == 1);
     CHECK(seen.of("Comm_free") == 1);
-    CHECK(seen.but({"Comm_dup", "Comm_free"}) == 0);
+    CHECK(seen.of("Allreduce") == 1);  // that all cut messages alike
+    CHECK(seen.but({"Comm_dup", "Comm_free", "Allreduce"}) == 0);
 }
 TEST_CASE("forward and reverse are one message each way to each neighbour, and nothing else", "[comm][mpi][calls]") {
     scene here;
@@ -83,7 +84,8 @@ TEST_CASE("forward and reverse are one message each way to each neighbour, and n
         INFO("reverse: " << seen.text());
         CHECK(static_cast<std::size_t>(seen.of("Start")) == halo.sent_messages() + halo.received_messages());
         CHECK(seen.of("Waitall") == (ranks > 1 ? 1 : 0));
-        CHECK(seen.but({"Start", "Waitall"}) == 0);
+        CHECK((is_first || seen.but({"Start", "Waitall"}) == 0));
+        CHECK(seen.but({"Start", "Waitall", "Send_init", "Recv_init"}) == 0);
         CHECK(seen.sent.size() == halo.received_messages());
         std::uint64_t sums[] = {forward_bytes, bytes()};
         here.on.reduce(std::span<std::uint64_t>(sums), tsubu::reduction::sum);

@@ -6,10 +6,12 @@
 #include <tsubu/testing/transport_conformance.hpp>
 
 #include "in_world.hpp"
+#include "support/counted_memory.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -83,6 +85,73 @@ TEST_CASE("exchanges that follow each other are not mixed up", "[comm][mpi]") {
                  "exchange: the parcels of this exchange, and no others");
         }
     });
+}
+TEST_CASE("a parcel to nowhere is refused when the others have theirs", "[comm][mpi]") {
+    check_in_world([](auto& on, verdict& seen) {
+        const auto next = static_cast<tsubu::rank_t>((on.rank() + 1) % on.ranks());
+        const std::vector<std::uint64_t> words{on.rank()};
+        std::vector<tsubu::parcel> parcels{{next, words}};
+        if (on.rank() == 0) parcels.push_back({static_cast<tsubu::rank_t>(on.ranks()), words});
+        for (const bool is_wrong : {true, false}) {
+            std::uint64_t sums[] = {3};
+            std::size_t count = 0;
+            bool was_refused = false;
+            try {
+                count = on.exchange(parcels, sums).size();
+            } catch (const tsubu::input_error&) {
+                was_refused = true;
+            }
+            seen(was_refused == (is_wrong && on.rank() == 0), "exchange: the rank that asks for it is refused");
+            seen(sums[0] == 3 * on.ranks(), "exchange: the sums are those of all ranks");
+            const std::size_t expected = is_wrong && (on.ranks() == 1 || on.rank() == 1) ? 0 : 1;  // from rank 0 nothing
+            seen(was_refused || count == expected, "exchange: what the others sent arrives");
+            parcels.resize(1);
+        }
+    });
+}
+TEST_CASE("a rank without memory takes part, and throws at the end", "[comm][mpi]") {
+    check_in_world([](auto& on, verdict& seen) {
+        const std::vector<std::uint64_t> words(100, on.rank());
+        std::vector<tsubu::parcel> parcels;
+        for (tsubu::rank_t r = 0; r < on.ranks(); ++r) parcels.push_back({r, words});
+        const auto poor = static_cast<tsubu::rank_t>(on.ranks() - 1);
+        for (const bool gathers : {false, true}) {
+            std::uint64_t has_failed = 1;
+            for (std::size_t requests = 0; has_failed != 0 && requests < 100; ++requests) {
+                on.memory().clear();
+                tsubu::mailbox came;
+                if (on.rank() == poor) counted_memory::granted = requests;
+                bool has_thrown = false;
+                try {
+                    came = gathers ? on.gather(words) : on.exchange(parcels, {});
+                } catch (const std::bad_alloc&) {
+                    has_thrown = true;
+                } catch (const tsubu::limit_error&) {
+                    has_thrown = on.rank() != poor;
+                }
+                counted_memory::granted = counted_memory::no_limit;
+                std::uint64_t failed[] = {has_thrown ? 1U : 0U};
+                on.reduce(std::span<std::uint64_t>(failed), tsubu::reduction::sum);
+                has_failed = failed[0];
+                seen(has_failed == 0 || requests != 0 || on.ranks() == has_failed || !gathers,
+                     "gather: all ranks throw or none does");
+                seen(has_failed != 0 || came.words() == 100 * on.ranks(), "what is asked for arrives at last");
+                seen(requests != 0 || has_failed != 0, "the first request is refused");
+                if (!gathers) came = on.exchange(parcels, {});  // whatever came before
+                seen(gathers || came.words() == 100 * on.ranks(), "exchange: the next one is whole");
+            }
+            seen(has_failed == 0, "there is enough memory at last");
+        }
+    });
+}
+TEST_CASE("ranks that cut messages differently are told", "[comm][mpi]") {
+    int rank = 0;
+    int ranks = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+    if (ranks == 1) return;
+    CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_WORLD, rank == 0 ? 2 : 4), tsubu::input_error);
+    CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_WORLD, rank == 0 ? 0 : 4), tsubu::input_error);
 }
 TEST_CASE("what an MPI transport is given is checked before any message", "[comm][mpi]") {
     CHECK_THROWS_AS(tsubu::mpi_transport(MPI_COMM_NULL), tsubu::input_error);

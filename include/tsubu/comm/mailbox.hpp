@@ -63,7 +63,7 @@ public:
     [[nodiscard]] iterator begin() const noexcept { return {*this, 0}; }
     [[nodiscard]] iterator end() const noexcept { return {*this, size()}; }
 
-    /// For transports: room for a parcel, to be filled. Ends what is left of earlier answers.
+    /// For transports: room for a parcel, to be filled. It stays where it is until the mailbox ends.
     [[nodiscard]] std::span<std::uint64_t> add(rank_t from, std::size_t words) {
         add(from, memory_.take<std::uint64_t>(words));
         return {letters_.back().words.data(), words};
@@ -79,6 +79,10 @@ public:
     /// The words of a parcel, which has none then.
     [[nodiscard]] message_memory::array<std::uint64_t> take(std::size_t k) noexcept {
         return std::move(letters_[k].words);
+    }
+    /// Copies the words of parcel k from here.
+    void fill(std::size_t k, const std::uint64_t* from) noexcept {
+        std::copy_n(from, letters_[k].words.size(), letters_[k].words.data());
     }
     /// By rank of the sender; those of one sender stay in their order.
     void sort() {

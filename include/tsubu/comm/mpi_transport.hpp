@@ -3,9 +3,10 @@
 /// mpi_transport: the ranks of a communicator.
 #pragma once
 
-#include <tsubu/comm/detail/rank_checks.hpp>
+#include <tsubu/comm/agreement.hpp>
 #include <tsubu/comm/detail/include_mpi.hpp>
 #include <tsubu/comm/detail/own_communicator.hpp>
+#include <tsubu/comm/detail/rank_checks.hpp>
 #include <tsubu/comm/mailbox.hpp>
 #include <tsubu/comm/message_memory.hpp>
 #include <tsubu/comm/mpi_error.hpp>
@@ -16,10 +17,9 @@
 #include <algorithm>  // std::copy_n
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint64_t
-#include <limits>     // std::numeric_limits
+#include <exception>  // std::current_exception, std::exception_ptr, std::rethrow_exception
 #include <memory>     // std::make_unique, std::unique_ptr
 #include <new>        // std::bad_alloc
-#include <numeric>    // std::accumulate
 #include <span>       // std::span
 #include <string>     // std::to_string
 #include <utility>    // std::exchange, std::move, std::swap
@@ -82,40 +82,51 @@ private:
 ///               exchange", doi:10.1145/1693453.1693476.
 class mpi_transport {
 public:
-    /// @param most_words  of one message; longer ones are sent in pieces. 2^27 words are 1 GiB, below the 2 GiB at
-    ///                    which implementations begin to fail.
-    /// @throws input_error if MPI is not running, or the communicator is null or an intercommunicator, or there may be
-    ///         no word in a message; mpi_error.
+    /// @param most_words  of one message, the same on all ranks; longer ones are sent in pieces. 2^27 words are 1 GiB,
+    ///                    below the 2 GiB at which implementations begin to fail.
+    /// @throws input_error if MPI is not running, or the communicator is null or an intercommunicator; on all ranks, if
+    ///         most_words is not the same, or not 1 to 2^31 - 1; mpi_error.
     explicit mpi_transport(MPI_Comm over, std::size_t most_words = std::size_t{1} << 27)
-        : own_(over, "mpi_transport"), most_words_(most_words) {
-        if (most_words == 0 || most_words > static_cast<std::size_t>((std::numeric_limits<int>::max)()))
-            detail::raise<input_error>("mpi_transport", std::to_string(most_words) + " words per message",
+        : own_(over, "mpi_transport"),
+          most_words_(most_words),
+          counts_(ranks()),
+          lengths_(ranks()),
+          places_(ranks()) {
+        std::uint64_t ends[] = {most_words, ~std::uint64_t{most_words}};
+        reduce(ends, reduction::greatest);
+        const auto least = ~ends[1];
+        if (least == 0 || ends[0] > most_count)
+            detail::raise<input_error>("mpi_transport",
+                                       std::to_string(least == 0 ? least : ends[0]) + " words per message",
                                        "give 1 to 2^31 - 1");
+        if (least != ends[0])
+            detail::raise<input_error>("mpi_transport",
+                                       std::to_string(least) + " to " + std::to_string(ends[0]) + " words per message",
+                                       "give the same on all ranks");
     }
 
     [[nodiscard]] rank_t rank() const noexcept { return static_cast<rank_t>(own_.rank()); }
     [[nodiscard]] std::size_t ranks() const noexcept { return static_cast<std::size_t>(own_.size()); }
-    /// The duplicate: for messages of the program that are to stay apart from others.
-    [[nodiscard]] MPI_Comm communicator() const noexcept { return own_.get(); }
 
-    /// @throws input_error if there is no such rank, before any message; std::bad_alloc if there is no room for what
-    ///         goes, and nothing has gone, or for what came, when the exchange is over on all ranks; mpi_error.
+    /// @throws when the exchange is over on all ranks: input_error if there is no such rank, std::bad_alloc if there is
+    ///         no room for what goes, and nothing has gone then, or for what came; at once: mpi_error.
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
-        for (const auto& one : parcels) detail::check_parcel("mpi_transport::exchange", one, ranks());
         // Who is through may begin the next exchange, while another still looks for messages of this one.
         const int tag = exchange_tag + std::exchange(parity_, 1 - parity_);
-        incoming came{mailbox(memory_), mailbox(memory_), false};
+        incoming came{mailbox(memory_), mailbox(memory_), nullptr};
         std::vector<MPI_Request> sends;
         try {
             std::size_t pieces = 0;
-            for (const auto& one : parcels)
+            for (const auto& one : parcels) {
+                detail::check_parcel("mpi_transport::exchange", one, ranks());
                 if (one.rank == rank())
                     came.box.add(one);
                 else
                     pieces += one.words.size() / most_words_ + 1;
+            }
             sends.reserve(pieces);
-        } catch (const std::bad_alloc&) {  // the others count on this rank: it takes part, and sends nothing
-            came.has_no_room = true;
+        } catch (...) {  // the others count on this rank: it takes part, and sends nothing
+            came.thrown = std::current_exception();
             parcels = {};
         }
         for (const auto& one : parcels)
@@ -131,6 +142,7 @@ public:
         // joins the reduction; when all ranks have joined, all messages have come.
         std::uint64_t nothing[1] = {0};
         if (sums.empty()) sums = nothing;  // a reduction of no numbers would wait for nobody
+        check_count(sums.size(), "exchange");
         MPI_Request reduced = MPI_REQUEST_NULL;
         for (int done = 0; done == 0;) {
             receive_one(tag, came);
@@ -146,33 +158,39 @@ public:
                                          MPI_SUM, own_.get(), &reduced),
                           "MPI_Iallreduce");
         }
-        if (came.has_no_room) throw std::bad_alloc();
+        if (came.thrown) std::rethrow_exception(came.thrown);
         return whole(came);
     }
     void reduce(std::span<std::uint64_t> numbers, reduction how) { reduce_as(numbers, MPI_UINT64_T, how); }
     void reduce(std::span<double> numbers, reduction how) { reduce_as(numbers, MPI_DOUBLE, how); }
-    /// @throws limit_error on all ranks if they have 2^31 words or more in all.
+    /// @throws limit_error on all ranks if they have 2^31 words or more in all; if one has no room for them,
+    ///         std::bad_alloc there, and limit_error on the others; mpi_error.
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
-        std::vector<std::uint64_t> counts(ranks());
         const std::uint64_t mine = words.size();
-        check_mpi(MPI_Allgather(&mine, 1, MPI_UINT64_T, counts.data(), 1, MPI_UINT64_T, own_.get()), "MPI_Allgather");
-        const auto total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-        if (total > static_cast<std::uint64_t>((std::numeric_limits<int>::max)()))
+        check_mpi(MPI_Allgather(&mine, 1, MPI_UINT64_T, counts_.data(), 1, MPI_UINT64_T, own_.get()), "MPI_Allgather");
+        std::uint64_t total = 0;
+        for (const auto count : counts_) total += count;
+        if (total > most_count)
             detail::raise<limit_error>("mpi_transport::gather", std::to_string(total) + " words from all ranks",
                                        "gather fewer than 2^31; exchange does not need all on one rank");
-        std::vector<int> lengths(ranks()), places(ranks());
-        for (std::size_t k = 0, at = 0; k < ranks(); at += counts[k++]) {
-            lengths[k] = static_cast<int>(counts[k]);
-            places[k] = static_cast<int>(at);
+        for (std::size_t k = 0, at = 0; k < ranks(); at += counts_[k++]) {
+            lengths_[k] = static_cast<int>(counts_[k]);
+            places_[k] = static_cast<int>(at);
         }
-        std::vector<std::uint64_t> all(static_cast<std::size_t>(total));
-        check_mpi(MPI_Allgatherv(words.data(), static_cast<int>(mine), MPI_UINT64_T, all.data(), lengths.data(),
-                                 places.data(), MPI_UINT64_T, own_.get()),
-                  "MPI_Allgatherv");
+        message_memory::array<std::uint64_t> all;
         mailbox came(memory_);
-        for (std::size_t k = 0; k < ranks(); ++k)
-            came.add(parcel{static_cast<rank_t>(k),
-                            {all.data() + places[k], static_cast<std::size_t>(lengths[k])}});
+        agreement<> room(rank());
+        room.attempt([&] {
+            all = memory_.take<std::uint64_t>(static_cast<std::size_t>(total));
+            for (std::size_t k = 0; k < ranks(); ++k)
+                static_cast<void>(came.add(static_cast<rank_t>(k), static_cast<std::size_t>(counts_[k])));
+        });
+        reduce(room.words(), reduction::sum);
+        room.settle("mpi_transport::gather");
+        check_mpi(MPI_Allgatherv(words.data(), static_cast<int>(mine), MPI_UINT64_T, all.data(), lengths_.data(),
+                                 places_.data(), MPI_UINT64_T, own_.get()),
+                  "MPI_Allgatherv");
+        for (std::size_t k = 0; k < ranks(); ++k) came.fill(k, all.data() + places_[k]);
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
@@ -238,6 +256,7 @@ public:
 private:
     static constexpr int exchange_tag = 0;
     static constexpr int first_channel_tag = 2;
+    static constexpr std::size_t most_count = 2147483647;  // of an int of MPI
 
     static void check_mpi(int code, const char* call) { detail::check_mpi(code, call); }
 
@@ -253,7 +272,7 @@ private:
     struct incoming {
         mailbox box;  // of parcels of this rank to itself; in the end of all
         mailbox pieces;  // of one sender in their order
-        bool has_no_room;
+        std::exception_ptr thrown;
     };
     void receive_one(int tag, incoming& came) {
         int found = 0;
@@ -268,8 +287,11 @@ private:
             room = came.pieces.add(static_cast<rank_t>(status.MPI_SOURCE), static_cast<std::size_t>(count));
         } catch (const std::bad_alloc&) {
             // It is taken and thrown away, or its sender would wait for ever.
-            came.has_no_room = true;
-            static_cast<void>(MPI_Mrecv(nullptr, 0, MPI_UINT64_T, &message, MPI_STATUS_IGNORE));
+            came.thrown = std::current_exception();
+            const int code = MPI_Mrecv(nullptr, 0, MPI_UINT64_T, &message, MPI_STATUS_IGNORE);
+            int kind = MPI_SUCCESS;
+            MPI_Error_class(code, &kind);
+            if (kind != MPI_ERR_TRUNCATE) check_mpi(code, "MPI_Mrecv");
             return;
         }
         check_mpi(MPI_Mrecv(room.data(), count, MPI_UINT64_T, &message, MPI_STATUS_IGNORE), "MPI_Mrecv");
@@ -294,8 +316,14 @@ private:
         box.sort();
         return box;
     }
+    static void check_count(std::size_t count, const char* where) {
+        if (count > most_count)
+            detail::raise<limit_error>(("mpi_transport::" + std::string(where)).c_str(),
+                                       std::to_string(count) + " numbers to reduce", "give fewer than 2^31");
+    }
     template <class Number>
     void reduce_as(std::span<Number> numbers, MPI_Datatype type, reduction how) const {
+        check_count(numbers.size(), "reduce");
         const auto operation = how == reduction::sum ? MPI_SUM : how == reduction::least ? MPI_MIN : MPI_MAX;
         check_mpi(MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), type, operation,
                                 own_.get()),
@@ -305,6 +333,9 @@ private:
     detail::own_communicator own_;
     std::size_t most_words_;
     message_memory memory_;
+    std::vector<std::uint64_t> counts_;  // for gather [ranks], there from the beginning
+    std::vector<int> lengths_;
+    std::vector<int> places_;
     int parity_ = 0;
     int channels_ = 0;
 };

@@ -8,12 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace {
 
-enum class how { well, refuses, exceeds, has_no_memory };
+enum class how { well, refuses, exceeds, has_no_memory, fails };
 
 /// What each of three ranks throws if they do their work so.
 std::vector<std::string> thrown_by(const std::vector<how>& ranks) {
@@ -27,6 +29,7 @@ std::vector<std::string> thrown_by(const std::vector<how>& ranks) {
                 case how::refuses: throw tsubu::input_error("bad input");
                 case how::exceeds: throw tsubu::limit_error("too many");
                 case how::has_no_memory: throw std::bad_alloc();
+                case how::fails: throw std::runtime_error("no such file");
             }
         });
         all.attempt([&] { has_gone_on = true; });
@@ -42,8 +45,12 @@ std::vector<std::string> thrown_by(const std::vector<how>& ranks) {
             text += std::string("input: ") + thrown.what();
         } catch (const tsubu::limit_error& thrown) {
             text += std::string("limit: ") + thrown.what();
+        } catch (const tsubu::other_rank_error& thrown) {
+            text += std::string("other: ") + thrown.what();
         } catch (const std::bad_alloc&) {
             text += "memory";
+        } catch (const std::exception& thrown) {
+            text += thrown.what();
         }
     });
     return texts;
@@ -68,6 +75,12 @@ TEST_CASE("a rank without room throws its own, the others a limit_error", "[comm
     texts = thrown_by({how::well, how::has_no_memory, how::well});
     CHECK(texts[1] == "memory");
     CHECK(begins(texts[2], "limit: tsubu::test: rank 1 exceeded a limit"));
+}
+TEST_CASE("where a rank fails otherwise, the others get an error of its own type", "[comm][agreement]") {
+    const auto texts = thrown_by({how::well, how::fails, how::well});
+    CHECK(texts[1] == "no such file");
+    CHECK(texts[0] ==
+          "other: tsubu::test: rank 1 failed; see the message there; nothing was done on any rank");
 }
 TEST_CASE("of several ranks that have failed the others are told the number", "[comm][agreement]") {
     const auto texts = thrown_by({how::exceeds, how::well, how::refuses});

@@ -7,6 +7,8 @@
 #include <tsubu/comm/mpi_error.hpp>
 #include <tsubu/core/error.hpp>
 
+#include <exception>  // std::uncaught_exceptions
+
 namespace tsubu::detail {
 
 /// A duplicate of a communicator that returns errors instead of aborting, freed with the object.
@@ -33,7 +35,10 @@ public:
     }
     own_communicator(const own_communicator&) = delete;
     own_communicator& operator=(const own_communicator&) = delete;
-    ~own_communicator() { MPI_Comm_free(&own_); }
+    /// Where the block is left by an exception other ranks may never come to free theirs: then it stays.
+    ~own_communicator() {
+        if (std::uncaught_exceptions() == exceptions_) MPI_Comm_free(&own_);
+    }
 
     [[nodiscard]] MPI_Comm get() const noexcept { return own_; }
     [[nodiscard]] int size() const noexcept { return size_; }
@@ -43,6 +48,7 @@ private:
     MPI_Comm own_ = MPI_COMM_NULL;
     int size_ = 0;
     int rank_ = 0;
+    int exceptions_ = std::uncaught_exceptions();
 };
 
 }  // namespace tsubu::detail

@@ -55,6 +55,8 @@ class Results:
         if task == "model":
             self.model.setdefault((variant, series, ranks), row)
             return
+        if self.ranks not in (None, ranks):
+            raise Refusal(f"figures of {self.ranks} ranks and of {ranks}: give files of one number of ranks")
         self.ranks = ranks
         if task == "moved":
             self.moved.setdefault(int(variant), row["bytes"] / row["leaver_bytes"])

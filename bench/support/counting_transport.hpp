@@ -19,7 +19,7 @@ namespace bench {
 struct traffic {
     std::uint64_t messages = 0;    ///< to other ranks
     std::uint64_t bytes = 0;       ///< in them
-    std::uint64_t reductions = 0;  ///< that it has taken part in
+    std::uint64_t reductions = 0;  ///< that it has taken part in, by exchange and reduce
 };
 
 template <tsubu::transport Transport>

@@ -7,7 +7,7 @@
 #include <tsubu/core/types.hpp>
 
 #include <algorithm>  // std::copy_n, std::sort
-#include <cstddef>    // std::size_t
+#include <cstddef>    // std::ptrdiff_t, std::size_t
 #include <cstdint>    // std::uint64_t
 #include <span>       // std::span
 #include <utility>    // std::move
@@ -21,7 +21,7 @@ struct parcel {
     std::span<const std::uint64_t> words;
 };
 
-/// What came from other ranks.
+/// What came from ranks, this one included.
 ///
 ///     for (const auto& [rank, words] : on.exchange(parcels, {})) ...
 class mailbox {
@@ -48,17 +48,25 @@ public:
 
     class iterator {
     public:
+        using value_type = parcel;
+        using difference_type = std::ptrdiff_t;
+        iterator() = default;
         iterator(const mailbox& of, std::size_t at) noexcept : of_(&of), at_(at) {}
         parcel operator*() const noexcept { return (*of_)[at_]; }
         iterator& operator++() noexcept {
             ++at_;
             return *this;
         }
+        iterator operator++(int) noexcept {
+            const auto before = *this;
+            ++at_;
+            return before;
+        }
         friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.at_ == b.at_; }
 
     private:
-        const mailbox* of_;
-        std::size_t at_;
+        const mailbox* of_ = nullptr;
+        std::size_t at_ = 0;
     };
     [[nodiscard]] iterator begin() const noexcept { return {*this, 0}; }
     [[nodiscard]] iterator end() const noexcept { return {*this, size()}; }

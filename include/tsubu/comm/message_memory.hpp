@@ -34,8 +34,9 @@ class message_memory {
     };
 
 public:
-    /// What comes back beyond this is freed. [bytes]
+    /// What comes back beyond this is freed: messages so large take longer than their pages. [bytes]
     static constexpr std::size_t most_kept = std::size_t{64} << 20;
+    /// More than a call of this library has at once, with a message from each of 26 neighbours.
     static constexpr std::size_t most_blocks = 64;
 
     /// So many values of a trivial type.
@@ -101,13 +102,17 @@ public:
     }
 
 private:
-    // The smallest that is large enough; else a new one with some room for requests that grow.
+    static constexpr std::size_t least_of_note = std::size_t{64} << 10;  // [bytes]
+
+    // The smallest that is large enough, but not a large one for a small request, which the next large one would miss;
+    // else a new one with some room for requests that grow.
     [[nodiscard]] block block_of(std::size_t bytes) {
         if (shelf_ == nullptr) return block(bytes, {});
         auto& kept = shelf_->kept;
+        const auto most = 4 * bytes + least_of_note;
         auto best = kept.end();
         for (auto one = kept.begin(); one != kept.end(); ++one)
-            if (one->size() >= bytes && (best == kept.end() || one->size() < best->size())) best = one;
+            if (one->size() >= bytes && one->size() <= most && (best == kept.end() || one->size() < best->size())) best = one;
         if (best == kept.end()) return block(bytes + bytes / 4 + sizeof(std::max_align_t), {});
         block found = std::move(*best);
         shelf_->bytes -= found.size();

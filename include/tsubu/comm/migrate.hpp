@@ -37,11 +37,16 @@ namespace tsubu {
 struct refuse_lost {};
 /// For migrate: it is moved to the nearest point of the box.
 struct clamp_lost {};
-/// For migrate: it is moved to another store of this rank, with all fields that this has too.
+/// For migrate: it is moved to another store of this rank, which outlives the call, with all fields that it has too.
 template <class Store>
 struct collect_lost {
     explicit collect_lost(Store& store) noexcept : into(store) {}
     Store& into;
+};
+/// What becomes of particles that have left the box: refuse_lost, clamp_lost, collect_lost.
+template <class OnLost>
+concept lost_policy = std::is_same_v<OnLost, refuse_lost> || std::is_same_v<OnLost, clamp_lost> || requires(OnLost how) {
+    how.into.add_owned(std::size_t{});
 };
 
 /// What a migration has done on one rank.
@@ -162,7 +167,7 @@ private:
                                                      array<unsigned char>& is_inside) {
         auto beyond = memory_.take<index_t>(at.size());
         std::size_t count = 0;
-        for (std::size_t k = 0; k < at.size(); ++k) {  // no branch, which nobody could foretell
+        for (std::size_t k = 0; k < at.size(); ++k) {  // branch-free: the outcome is unpredictable
             beyond[count] = static_cast<index_t>(k);
             count += is_inside[k] == 0 ? 1U : 0U;
         }
@@ -318,14 +323,19 @@ private:
 /// Complexity: O(n) to see who leaves, all else by the leavers. 8 bytes to each rank that gets any, and their fields.
 /// Collective: yes; the same decomposition on all ranks. One reduction, another if a particle leaves; one message to
 ///             each rank that gets any.
-template <class Store, decomposition Parts, transport Transport, class OnLost = refuse_lost>
+template <class Store, decomposition Parts, transport Transport, lost_policy OnLost = refuse_lost>
 migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}) {
     store.clear_ghosts();
     detail::migrator<Store, Parts> work(store, parts, on.rank(), on.memory());
+    constexpr bool collects = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
     enum : std::size_t { sent, lost };
     agreement<2> before(on.rank());
     before.attempt([&] {
         detail::check_ranks("migrate", parts.ranks(), on.ranks());
+        if constexpr (collects)
+            if (static_cast<const void*>(&on_lost.into) == static_cast<const void*>(&store))
+                detail::raise<input_error>("migrate", "lost particles are to be collected in the store itself",
+                                           "give another store");
         work.template find<OnLost>();
         work.pack_leavers();
     });
@@ -344,7 +354,6 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
     before.settle("migrate", left);
     if (before[sent] == 0 && before[lost] == 0) return {};
 
-    constexpr bool collects = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
     [[maybe_unused]] std::size_t collected_before = 0;
     if constexpr (collects) collected_before = on_lost.into.owned_count();
     after.attempt([&] { work.unpack_arrivals(came); });

@@ -37,20 +37,21 @@ public:
     using error::error;
 };
 
-/// Messages of 64-bit words between ranks. All members but rank() and ranks() are collective: every rank calls them, in
-/// the same order; a message may go to any rank, this one included.
+/// Messages of 64-bit words between ranks. 1 to 4 and the making of channels are collective: every rank calls them, in
+/// the same order, with as many sums or numbers; a message may go to any rank, this one included.
 ///  1. exchange(parcels, sums): each parcel arrives once, whole, at its rank, which need not know of it before; the
 ///     mailbox has what came by rank of the sender, of one sender in the order of its parcels. Each of the sums becomes
-///     that over all ranks, modulo 2^64; so they do if it throws std::bad_alloc on a rank that has no room for what
-///     goes or came. Cost: the messages that are sent, and one reduction;
+///     that over all ranks, modulo 2^64; so they do if it throws on a rank, std::bad_alloc where there is no room
+///     for what goes or came. Cost: the messages that are sent, and one reduction;
 ///  2. reduce(numbers, how) makes each number the sum, the least or the greatest over all ranks, the same on all;
 ///  3. gather(words) has one parcel from each rank, in their order;
 ///  4. sum_before(n) is the sum over the ranks below this one;
 ///  5. channel(on, tag, out, in) brings words(out) of this rank to the others with every start(), and has theirs in
-///     words(in) after finish(). Both are laid out lane by lane; the words that go out are left alone in between. Ranks
-///     make matching channels, with one tag, and start them in the same order; next_tag() is the same on all ranks.
-///     A lane has another rank than this one;
-///  6. memory() is what messages of this rank are made in; not collective.
+///     words(in) after finish(). Both are laid out lane by lane; the words that go out are left alone in between, and
+///     each start() is finished before the next. Ranks make matching channels, with one tag, and the two ends of a lane
+///     start it equally often; next_tag() is the same on all ranks. A lane has another rank than this one. The
+///     transport outlives its channels;
+///  6. memory() is what messages of this rank are made in.
 /// A rank that has thrown is waited for by none: see agreement for errors that all ranks are to learn of.
 template <class Transport>
 concept transport = requires(Transport& on, const Transport& here, std::span<const parcel> parcels,

@@ -5,7 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
+
+static_assert(std::forward_iterator<tsubu::mailbox::iterator>);
 
 TEST_CASE("a mailbox has parcels as they came, and sorted those of one sender stay in order", "[comm][mailbox]") {
     tsubu::mailbox box;

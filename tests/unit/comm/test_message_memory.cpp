@@ -49,6 +49,15 @@ TEST_CASE("the smallest that is large enough is taken, so that calls that repeat
     memory.clear();
     CHECK(memory.memory_bytes() == 0);
 }
+TEST_CASE("a small request leaves a large block alone", "[comm]") {
+    tsubu::message_memory memory;
+    { const auto large = memory.take<char>(std::size_t{32} << 20); }
+    const auto held = memory.memory_bytes();
+    const auto small = memory.take<char>(100);
+    CHECK(memory.memory_bytes() == held);
+    const auto large = memory.take<char>(std::size_t{30} << 20);
+    CHECK(memory.memory_bytes() == 0);
+}
 TEST_CASE("what is kept has an end", "[comm]") {
     tsubu::message_memory memory;
     { const auto vast = memory.take<std::uint64_t>(tsubu::message_memory::most_kept / 8 + 1); }

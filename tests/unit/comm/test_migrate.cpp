@@ -97,6 +97,14 @@ TEST_CASE("a decomposition for other ranks is refused on all", "[comm][migrate]"
         });
     }
 }
+TEST_CASE("lost particles are not collected where they are lost from", "[comm][migrate]") {
+    tsubu::self_transport on;
+    const tsubu::brick_decomposition<2> bricks(tsubu::domain<2>({0, 0}, {1, 1}), 1);
+    tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<2>>> g;
+    g.push_back(tsubu::position<2> = {2, 0});
+    CHECK_THROWS_AS(tsubu::migrate(g, bricks, on, tsubu::collect_lost(g)), tsubu::input_error);
+    CHECK(g.owned_count() == 1);
+}
 TEST_CASE("2000 steps of random motion lose nothing", "[comm][migrate]") {
     const auto box = box_of<3>(7);
     const tsubu::brick_decomposition<3> bricks(box, 4);

@@ -24,6 +24,7 @@
 ///
 /// The model counts on simulated ranks, threads of rank 0, on cubes in a grid that is periodic along all axes.
 
+#include "rivals/hand_ranks.hpp"
 #include "support/command_line.hpp"
 #include "support/counting_transport.hpp"
 #include "support/progress.hpp"
@@ -114,6 +115,10 @@ struct world {
     }
     [[nodiscard]] int next() const { return static_cast<int>((on.rank() + 1) % on.ranks()); }
     [[nodiscard]] int before() const { return static_cast<int>((on.rank() + on.ranks() - 1) % on.ranks()); }
+    [[nodiscard]] row_place here() const {
+        const auto mine = row.subdomain(on.rank());
+        return {static_cast<int>(on.rank()), next(), before(), mine.lo()[0], mine.hi()[0], real(on.ranks())};
+    }
 };
 
 /// Bytes to the next rank and the one before, as MPI_Sendrecv from and to buffers that are there already.
@@ -165,82 +170,6 @@ private:
     std::vector<std::size_t> order_;
 };
 
-/// What a program would have that moves these fields along this row of cubes, and nothing else: who leaves shows in
-/// one coordinate, and goes to a cube next to this one; those that come take the places of those that have gone.
-class hand_migration {
-public:
-    hand_migration(const world& w, const moving_store& g)
-        : on_(MPI_COMM_WORLD), next_(w.next()), before_(w.before()), length_(real(w.on.ranks())) {
-        const auto mine = w.row.subdomain(w.on.rank());
-        lo_ = mine.lo()[0];
-        hi_ = mine.hi()[0];
-        const auto copy = [](auto& to, auto from) { to.assign(from.begin(), from.end()); };
-        copy(t_, g[tsubu::id].span());
-        copy(x_, g[tsubu::position<3>].span());
-        copy(v_, g[tsubu::velocity<3>].span());
-        copy(m_, g[tsubu::mass].span());
-    }
-    [[nodiscard]] std::span<const std::int64_t> ids() const { return t_; }
-    [[nodiscard]] std::span<vec<3>> positions() { return x_; }
-    [[nodiscard]] std::span<const vec<3>> velocities() const { return v_; }
-
-    void operator()() {
-        places_.clear();
-        for (auto& one : out_) one.clear();
-        const bool is_one_way = next_ == before_;  // a message of all
-        for (std::size_t i = 0; i < x_.size(); ++i) {
-            if (x_[i][0] >= lo_ && x_[i][0] < hi_) continue;
-            places_.push_back(i);
-            auto x = x_[i];
-            auto& out = out_[x[0] < lo_ && !is_one_way ? 1 : 0];
-            x[0] += x[0] < 0 ? length_ : x[0] >= length_ ? -length_ : 0;
-            out.push_back({t_[i], x, v_[i], m_[i]});
-        }
-        came_.clear();
-        swap_with(next_, before_, out_[0]);
-        if (!is_one_way) swap_with(before_, next_, out_[1]);
-        std::size_t k = 0;
-        for (; k < came_.size() && k < places_.size(); ++k) put(came_[k], places_[k]);
-        for (; k < came_.size(); ++k) {
-            resize(x_.size() + 1);
-            put(came_[k], x_.size() - 1);
-        }
-        for (auto n = places_.size(); n > k; --n) {
-            const auto last = x_.size() - 1;
-            put({t_[last], x_[last], v_[last], m_[last]}, places_[n - 1]);
-            resize(last);
-        }
-    }
-
-private:
-    struct record {
-        std::int64_t t;
-        vec<3> x, v;
-        double m;
-    };
-    void put(const record& one, std::size_t i) { t_[i] = one.t, x_[i] = one.x, v_[i] = one.v, m_[i] = one.m; }
-    void resize(std::size_t n) { t_.resize(n), x_.resize(n), v_.resize(n), m_.resize(n); }
-    void swap_with(int to, int from, const std::vector<record>& out) {
-        const std::uint64_t sends = out.size();
-        std::uint64_t gets = 0;
-        MPI_Sendrecv(&sends, 1, MPI_UINT64_T, to, 4, &gets, 1, MPI_UINT64_T, from, 4, on_, MPI_STATUS_IGNORE);
-        const auto before = came_.size();
-        came_.resize(before + static_cast<std::size_t>(gets));
-        MPI_Sendrecv(out.data(), static_cast<int>(sends * sizeof(record)), MPI_BYTE, to, 5, came_.data() + before,
-                     static_cast<int>(gets * sizeof(record)), MPI_BYTE, from, 5, on_, MPI_STATUS_IGNORE);
-    }
-
-    MPI_Comm on_;
-    int next_, before_;
-    double lo_, hi_, length_;
-    std::vector<std::int64_t> t_;
-    std::vector<vec<3>> x_, v_;
-    std::vector<double> m_;
-    std::vector<std::size_t> places_;
-    std::array<std::vector<record>, 2> out_;
-    std::vector<record> came_;
-};
-
 /// What no migration changes, over all ranks; and that all is where it belongs.
 std::array<std::uint64_t, 3> sums_of(std::span<const std::int64_t> ids, std::span<const vec<3>> x,
                                      std::span<const vec<3>> v, world& w) {
@@ -280,7 +209,7 @@ void run_migrate(world& w, std::size_t percent) {
                                                             {"leaver_bytes", real(64 * leavers)},
                                                             {"messages", real(counted.sent().messages)}});
 
-    const auto by_hand = std::make_shared<hand_migration>(w, *g);
+    const auto by_hand = std::make_shared<hand_migration>(w.here(), *g);
     const auto leave_by_hand = std::make_shared<departures>(w, leavers);
     (*leave_by_hand)(by_hand->positions());
     (*by_hand)();
@@ -308,98 +237,6 @@ void run_migrate(world& w, std::size_t percent) {
 // ---------------------------------------------------------------------------------------------------------------
 // Ghosts
 
-/// What a program would have that exchanges positions and forces of this row of cubes, and nothing else: arrays of its
-/// own, buffers that are there already, the shift added as particles are packed, ghosts received where they are to lie.
-class hand_written {
-public:
-    hand_written(const world& w, const pushed_store& g, double cutoff) : on_(MPI_COMM_WORLD) {
-        const auto here = static_cast<int>(w.on.rank());
-        const auto mine = w.row.subdomain(w.on.rank());
-        const auto length = real(w.on.ranks());
-        const auto x = g[tsubu::position<3>].span().first(g.owned_count());
-        x_.assign(x.begin(), x.end());
-        for (std::size_t i = 0; i < x.size(); ++i)
-            if (x[i][0] >= mine.hi()[0] - cutoff) go(i, w.next() <= here ? -length : 0);
-        const auto up = chosen_.size();
-        for (std::size_t i = 0; i < x.size(); ++i)
-            if (x[i][0] <= mine.lo()[0] + cutoff) go(i, w.before() >= here ? length : 0);
-        const auto all = chosen_.size();
-        if (w.next() == w.before())  // one message of all
-            neighbours_ = {{w.next(), 0, all, x.size(), 0}};
-        else
-            neighbours_ = {{w.next(), 0, up, x.size(), 0}, {w.before(), up, all - up, x.size(), 0}};
-        for (auto& one : neighbours_) {
-            const std::uint64_t sends = one.sends;
-            std::uint64_t gets = 0;
-            MPI_Sendrecv(&sends, 1, MPI_UINT64_T, one.rank, 2, &gets, 1, MPI_UINT64_T, one.rank, 2, on_,
-                         MPI_STATUS_IGNORE);
-            one.first_ghost = x_.size();
-            one.gets = static_cast<std::size_t>(gets);
-            x_.resize(x_.size() + one.gets);
-        }
-        force_.resize(x_.size());
-        pieces_.resize(all);
-    }
-    [[nodiscard]] const std::vector<vec<3>>& positions() const { return x_; }
-    [[nodiscard]] std::vector<vec<3>>& forces() { return force_; }
-    /// Particles that go up, down, come from below, from above; all in the first where both are one rank.
-    [[nodiscard]] std::array<std::size_t, 4> counts() const {
-        const auto& up = neighbours_.front();
-        if (neighbours_.size() == 1) return {up.sends, 0, up.gets, 0};
-        const auto& down = neighbours_.back();
-        return {up.sends, down.sends, down.gets, up.gets};
-    }
-
-    void forward() {
-        for (const auto& one : neighbours_) receive(x_.data() + one.first_ghost, one.gets, one.rank);
-        for (std::size_t k = 0; k < chosen_.size(); ++k) {
-            const auto& x = x_[static_cast<std::size_t>(chosen_[k])];
-            pieces_[k] = {x[0] + moved_[k], x[1], x[2]};
-        }
-        for (const auto& one : neighbours_) send(pieces_.data() + one.first_sent, one.sends, one.rank);
-        finish();
-    }
-    void reverse() {
-        for (const auto& one : neighbours_) receive(pieces_.data() + one.first_sent, one.sends, one.rank);
-        for (const auto& one : neighbours_) send(force_.data() + one.first_ghost, one.gets, one.rank);
-        finish();
-        for (std::size_t k = 0; k < chosen_.size(); ++k) {
-            auto& f = force_[static_cast<std::size_t>(chosen_[k])];
-            const auto& more = pieces_[k];
-            f = {f[0] + more[0], f[1] + more[1], f[2] + more[2]};
-        }
-    }
-
-private:
-    struct neighbour {
-        int rank;
-        std::size_t first_sent, sends, first_ghost, gets;
-    };
-    void go(std::size_t i, double moved) {
-        chosen_.push_back(static_cast<tsubu::index_t>(i));
-        moved_.push_back(moved);
-    }
-    void receive(vec<3>* to, std::size_t count, int from) {
-        MPI_Irecv(to, static_cast<int>(3 * count), MPI_DOUBLE, from, 3, on_, &requests_[active_++]);
-    }
-    void send(const vec<3>* from, std::size_t count, int to) {
-        MPI_Isend(from, static_cast<int>(3 * count), MPI_DOUBLE, to, 3, on_, &requests_[active_++]);
-    }
-    void finish() {
-        MPI_Waitall(static_cast<int>(active_), requests_.data(), MPI_STATUSES_IGNORE);
-        active_ = 0;
-    }
-
-    MPI_Comm on_;
-    std::vector<vec<3>> x_, force_;
-    std::vector<tsubu::index_t> chosen_;
-    std::vector<double> moved_;
-    std::vector<vec<3>> pieces_;
-    std::vector<neighbour> neighbours_;
-    std::array<MPI_Request, 4> requests_{};
-    std::size_t active_ = 0;
-};
-
 /// A store, and its ghosts by one pattern.
 template <class Pattern>
 struct ghosted {
@@ -417,7 +254,7 @@ std::vector<vec<3>> sorted(std::span<const vec<3>> values) {
 }
 /// Ghosts follow their owners as by hand, and their forces come back as by hand.
 template <class Pattern>
-void check(world& w, ghosted<Pattern>& one, hand_written& by_hand) {
+void check(world& w, ghosted<Pattern>& one, hand_halo& by_hand) {
     auto& g = one.g;
     const auto owned = g.owned_count();
     for (std::size_t i = owned; i < g.size(); ++i) g[tsubu::position<3>][i] = {};
@@ -448,7 +285,7 @@ void check(world& w, ghosted<Pattern>& one, hand_written& by_hand) {
 void run_halo(world& w, double cutoff, const std::string& size) {
     const auto direct = std::make_shared<ghosted<tsubu::direct_pattern>>(w, cutoff);
     const auto staged = std::make_shared<ghosted<tsubu::staged_pattern>>(w, cutoff);
-    const auto by_hand = std::make_shared<hand_written>(w, direct->g, cutoff);
+    const auto by_hand = std::make_shared<hand_halo>(w.here(), direct->g, cutoff);
     check(w, *direct, *by_hand);
     check(w, *staged, *by_hand);
     const auto [up, down, below, above] = by_hand->counts();

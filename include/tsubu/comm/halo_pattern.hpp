@@ -15,7 +15,6 @@
 #include <tsubu/domain/brick_decomposition.hpp>
 #include <tsubu/domain/cell_decomposition.hpp>
 #include <tsubu/domain/concepts.hpp>
-#include <tsubu/domain/detail/reach.hpp>
 #include <tsubu/domain/lattice.hpp>
 
 #include <algorithm>  // std::max
@@ -120,7 +119,7 @@ struct staged_pattern {
         for (std::size_t axis = 0; axis < Parts::dimension; ++axis) {
             const auto groups = steps.size() + 1;
             const auto reach = detail::near_part<Parts>::reach_of(parts, cutoff, here, here)[axis];
-            detail::check_reach("make_halo", bricks.whole().along(axis).real(), reach);
+            bricks.whole().along(axis).real().check_reach("make_halo", reach);
             for (const bool upwards : {true, false})
                 for (std::size_t hop = 0, hops = hops_along(bricks, axis, reach); hop < hops; ++hop) {
                     halo_step<Parts> step;

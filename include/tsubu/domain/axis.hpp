@@ -87,6 +87,15 @@ public:
     [[nodiscard]] constexpr Scalar unwrap(wrapped_coordinate<Scalar> at) const noexcept {
         return at.position + static_cast<Scalar>(at.shift) * length_;
     }
+    /// For functions that list images within a reach. @throws input_error if it is more than 2^20 periods: 50 MB of
+    /// images along one axis, beyond which the unit of a cutoff is wrong.
+    void check_reach(const char* where, Scalar reach) const {
+        if (periodic_ && reach / length_ > Scalar(1 << 20))
+            detail::raise<input_error>(where,
+                                       "the cutoff reaches " + detail::shown(reach) + " along an axis, more than 2^20 "
+                                       "periods of " + detail::shown(length_),
+                                       "take a smaller cutoff, or a larger box");
+    }
     /// As a lattice has them, for code that takes either: the axis itself, wrap, and x.
     [[nodiscard]] constexpr const axis& real() const noexcept { return *this; }
     [[nodiscard]] constexpr wrapped_coordinate<Scalar> from_real(Scalar x) const { return wrap(x); }

@@ -9,6 +9,7 @@
 #include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/column.hpp>
 #include <tsubu/store/concepts.hpp>
+#include <tsubu/store/detail/stored.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/growth.hpp>
 #include <tsubu/store/list_of.hpp>
@@ -21,7 +22,6 @@
 #include <cstdint>      // std::uint64_t
 #include <memory>       // std::unique_ptr
 #include <new>          // std::bad_alloc
-#include <optional>     // std::optional
 #include <span>         // std::span
 #include <string>       // std::to_string
 #include <tuple>        // std::tuple
@@ -30,38 +30,6 @@
 #include <vector>       // std::vector
 
 namespace tsubu {
-namespace detail {
-
-/// What lies in memory for a field, the pool that its lists lie in, and what a particle_record holds of it.
-template <class Value>
-struct stored {
-    using type = Value;
-    using held = Value;
-    using pool = std::tuple<>;
-    static constexpr bool is_list = false;
-    static constexpr bool is_bonus = false;
-};
-template <class Element>
-struct stored<list_of<Element>> {
-    using type = list_extent;
-    using held = held_list<Element>;
-    using pool = list_pool<Element>;
-    static constexpr bool is_list = true;
-    static constexpr bool is_bonus = false;
-};
-template <class Value>
-struct stored<bonus_of<Value>> {
-    using type = bonus_place;
-    using held = std::optional<Value>;
-    using pool = bonus_pool<Value>;
-    static constexpr bool is_list = false;
-    static constexpr bool is_bonus = true;
-};
-
-template <class Field>
-using stored_of = stored<typename std::remove_cv_t<Field>::value_type>;
-
-}  // namespace detail
 
 template <class Fields, class Layout = soa, class Growth = geometric_growth>
 class particle_store;

@@ -46,20 +46,9 @@ struct reaching_image {
     Real gap;
 };
 
-/// @throws input_error if the reach is more than 2^20 periods.
-template <class Real>
-void check_reach(const char* where, const axis<Real>& along, Real reach) {
-    // 50 MB of images along one axis; beyond it the unit of the cutoff is wrong.
-    if (along.is_periodic() && reach / along.length() > static_cast<Real>(1 << 20))
-        raise<input_error>(where,
-                           "the cutoff reaches " + shown(reach) + " along an axis, more than 2^20 periods of " +
-                               shown(along.length()),
-                           "take a smaller cutoff, or a larger box");
-}
-
 /// All shifts n with [other.lo + n L, other.hi + n L] within the reach of mine, in increasing order. Rounding may let
 /// in an image that is a few units in the last place too far, and keeps out none.
-/// @throws input_error as check_reach.
+/// @throws input_error as axis::check_reach.
 template <class Real>
 [[nodiscard]] std::vector<reaching_image<Real>> reaching_images(const char* where, const axis<Real>& along,
                                                                 stretch<Real> mine, stretch<Real> other, Real reach) {
@@ -78,7 +67,7 @@ template <class Real>
         try_shift(0);
         return found;
     }
-    check_reach(where, along, reach);
+    along.check_reach(where, reach);
     const auto most = static_cast<std::int64_t>(std::floor(reach / along.length())) + 2;
     for (std::int64_t n = -most; n <= most; ++n) try_shift(n);
     return found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Does a transport keep the five laws of its concept? A suite for any test framework, or none.
+/// Does a transport keep the laws of its concept that can be seen from outside? A suite for any test framework, or none.
 ///
 ///     tsubu::run_ranks(4, [](tsubu::local_transport& on) {
 ///         tsubu::testing::check_transport(on, 7, 100, [](bool ok, std::string_view law) { ... });
@@ -343,7 +343,8 @@ private:
 
 namespace tsubu::testing {
 
-/// Does this transport keep laws 1 to 5?
+/// Does this transport keep laws 1 to 5? What becomes of an exchange on a rank without memory is not examined; law 6 is
+/// a matter of speed. Pass a transport that cuts long messages with a length of a few words too.
 ///
 /// @param seed   same seed, same run, on every machine
 /// @param steps  of each: an exchange, three reductions, a gather, a sum_before; then a round of four channels

@@ -7,7 +7,7 @@
 ///
 ///     comm/sync/none/reduction/ranks:2           one empty reduction
 ///     comm/migrate/PERCENT/tsubu/ranks:2         migrate; so many of the particles of each rank leave: 0, 1, 10, 50
-///     comm/migrate/PERCENT/hand/ranks:2          loops, lists and MPI_Sendrecv, for this row of cubes and these fields alone
+///     comm/migrate/PERCENT/hand/ranks:2          loops, lists and MPI_Sendrecv, for this row and these fields alone
 ///     comm/migrate/PERCENT/raw/ranks:2           MPI_Sendrecv of the bytes of the leavers, from and to ready buffers
 ///     comm/moved/PERCENT/tsubu/ranks:2           bytes that migrate sends to other ranks, and those of the leavers
 ///     comm/make_halo/SIZE/direct | staged/ranks:2

@@ -78,7 +78,8 @@ private:
     void swap_with(int to, int from, const std::vector<record>& out) {
         const std::uint64_t sends = out.size();
         std::uint64_t gets = 0;
-        MPI_Sendrecv(&sends, 1, MPI_UINT64_T, to, 4, &gets, 1, MPI_UINT64_T, from, 4, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        MPI_Sendrecv(&sends, 1, MPI_UINT64_T, to, 4, &gets, 1, MPI_UINT64_T, from, 4, MPI_COMM_WORLD,
+                     MPI_STATUS_IGNORE);
         const auto before = came_.size();
         came_.resize(before + static_cast<std::size_t>(gets));
         MPI_Sendrecv(out.data(), static_cast<int>(sends * sizeof(record)), MPI_BYTE, to, 5, came_.data() + before,

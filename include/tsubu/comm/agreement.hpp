@@ -17,8 +17,8 @@
 
 namespace tsubu {
 
-/// Thrown on ranks that have not failed themselves, if another failed by what is neither input nor limit: a file, or what
-/// a user's function throws.
+/// Thrown on ranks that have not failed themselves, if another failed by what is neither input nor limit: a file, or
+/// what a user's function throws.
 class other_rank_error : public error {
 public:
     using error::error;

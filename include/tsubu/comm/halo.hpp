@@ -19,6 +19,7 @@
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/particle_store.hpp>
 
+#include <bit>      // std::bit_cast
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
 #include <limits>   // std::numeric_limits
@@ -106,8 +107,8 @@ public:
     }
 
     /// What ghosts hold of these fields is added to their owners: as each field says, by sum, least or greatest. In the
-    /// order of steps, ranks and shifts: the same on every run. What ghosts hold afterwards is theirs with one step, and
-    /// unspecified with several, where ghosts pass on what others have added to them.
+    /// order of steps, ranks and shifts: the same on every run. What ghosts hold afterwards is theirs with one step,
+    /// and unspecified with several, where ghosts pass on what others have added to them.
     /// @throws as forward.
     template <class Store, particle_field... Field>
     void reverse(Store& store, Field... which) {
@@ -172,7 +173,8 @@ private:
     }
     static void end(const void*& under_way, const void* key, const char* where) {
         if (under_way != key)
-            detail::raise<input_error>(where, under_way == nullptr ? "nothing was started" : "other fields were started",
+            detail::raise<input_error>(where,
+                                       under_way == nullptr ? "nothing was started" : "other fields were started",
                                        "finish the fields that were started, in the same order");
         under_way = nullptr;
     }
@@ -227,13 +229,13 @@ private:
 ///
 /// @param cutoff   [m]
 /// @param pattern  a halo_pattern
-/// @throws on all ranks or none: input_error if the cutoff is negative or not finite, or the ranks are not those of the
-///         decomposition; limit_error, or std::bad_alloc on the rank itself, where memory is short. There are no ghosts
-///         then.
+/// @throws on all ranks or none: input_error if the cutoff is negative, not finite, or not the same on all ranks, or
+///         these are not those of the decomposition; limit_error, or std::bad_alloc on the rank itself, where memory is
+///         short. There are no ghosts then.
 /// Precondition: the particles are on the ranks that own them, as after migrate.
 /// Complexity: O(n) comparisons for each neighbour; bytes: the fields of the ghosts, 8 per rank, 8 (D + 1) per rank and
 ///             image.
-/// Collective: yes; the same decomposition, cutoff and pattern on all ranks. One reduction, for each step of the
+/// Collective: yes; the same decomposition, cutoff and pattern on all ranks. Two reductions, for each step of the
 ///             pattern two, and one message to each rank that gets any.
 template <class Store, decomposition Parts, transport Transport, class Pattern = direct_pattern>
     requires halo_pattern<Pattern, Parts>
@@ -257,6 +259,14 @@ template <class Store, decomposition Parts, transport Transport, class Pattern =
     });
     on.reduce(before.words(), reduction::sum);
     before.settle("make_halo", "there are no ghosts");
+    const auto bits = std::bit_cast<std::uint64_t>(static_cast<double>(cutoff));
+    std::uint64_t ends[] = {bits, ~bits, steps.size(), ~std::uint64_t{steps.size()}};
+    on.reduce(std::span<std::uint64_t>(ends), reduction::greatest);
+    if (ends[0] != ~ends[1] || ends[2] != ~ends[3])
+        detail::raise<input_error>("make_halo",
+                                   "ranks differ in the cutoff, which is " + detail::shown(cutoff) +
+                                       " here, or in the pattern",
+                                   "give the same on all ranks, such as the greatest by transport::reduce");
     for (const auto& step : steps) {
         made.make_step(store, parts, on, step, begins);
         begins.push_back(store.size());

@@ -112,7 +112,8 @@ private:
         const auto most = 4 * bytes + least_of_note;
         auto best = kept.end();
         for (auto one = kept.begin(); one != kept.end(); ++one)
-            if (one->size() >= bytes && one->size() <= most && (best == kept.end() || one->size() < best->size())) best = one;
+            if (one->size() >= bytes && one->size() <= most && (best == kept.end() || one->size() < best->size()))
+                best = one;
         if (best == kept.end()) return block(bytes + bytes / 4 + sizeof(std::max_align_t), {});
         block found = std::move(*best);
         shelf_->bytes -= found.size();

@@ -45,9 +45,8 @@ struct collect_lost {
 };
 /// What becomes of particles that have left the box: refuse_lost, clamp_lost, collect_lost.
 template <class OnLost>
-concept lost_policy = std::is_same_v<OnLost, refuse_lost> || std::is_same_v<OnLost, clamp_lost> || requires(OnLost how) {
-    how.into.add_owned(std::size_t{});
-};
+concept lost_policy = std::is_same_v<OnLost, refuse_lost> || std::is_same_v<OnLost, clamp_lost> ||
+                      requires(OnLost how) { how.into.add_owned(std::size_t{}); };
 
 /// What a migration has done on one rank.
 struct migration {
@@ -57,6 +56,9 @@ struct migration {
 };
 
 namespace detail {
+
+template <lost_policy OnLost>
+inline constexpr bool collects_lost = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
 
 /// Who has to go, and where.
 struct leaver {
@@ -109,6 +111,11 @@ public:
         parts_.owner(points_at, owners.first(count));
         list_leavers(outside, owners, is_inside);
         for (const auto& one : moved) frame_type::settle(store_, parts_.whole(), one.index, one.to);
+    }
+    /// Undoes what clamping has done: those particles are beyond the face again, to be found by the next call.
+    void put_back_clamped() {
+        for (std::size_t k = 0; k < clamped_from_.size(); ++k)
+            store_[frame_type::position][static_cast<std::size_t>(lost_[k])] = clamped_from_[k];
     }
     /// Packs the leavers of each rank: their number, then they.
     void pack_leavers() {
@@ -176,6 +183,11 @@ private:
         count = 0;
         for (const auto one : beyond) {
             const auto k = static_cast<std::size_t>(one);
+            if constexpr (collects_lost<OnLost>)
+                if (is_too_far(at[k])) {
+                    lost_.push_back(outside[k]);
+                    continue;
+                }
             // Made where it is to stay: to copy what was just written, number by number, in wider pieces would stall.
             auto& fresh = (::new (static_cast<void*>(&moved[count]))
                                moved_particle{outside[k], wrap(outside[k], at[k])})->to;
@@ -183,6 +195,7 @@ private:
             if (!parts_.whole().contains(fresh.position)) {
                 lost_.push_back(outside[k]);
                 if constexpr (std::is_same_v<OnLost, clamp_lost>) {
+                    clamped_from_.push_back(fresh.position);
                     fresh.position = clamped(fresh.position);
                 } else {
                     is_inside[k] = 0;
@@ -230,6 +243,18 @@ private:
             box.contains(at, mask);
         else
             for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = box.contains(at[k]) ? 1 : 0;
+    }
+    // Finite, but so far out that no wrap of this box finds the image: lost as well, for who collects such.
+    [[nodiscard]] bool is_too_far(const position_type& x) const {
+        try {
+            static_cast<void>(parts_.whole().wrap(x));
+            return false;
+        } catch (const input_error&) {
+            bool finite = true;
+            if constexpr (!is_lattice<typename Parts::scalar_type>)
+                for (const auto& one : x) finite = finite && is_finite(one);
+            return finite;
+        }
     }
     [[nodiscard]] wrapped_type wrap(index_t i, const position_type& x) const {
         try {
@@ -298,6 +323,7 @@ private:
     array<index_t> indices_;  // of the leavers
     array<index_t> gone_;     // these and the lost ones, as they lie in the store
     std::vector<index_t> lost_;
+    std::vector<position_type> clamped_from_;  // of these, if they are clamped
     array<std::uint64_t> words_;
     std::vector<parcel> parcels_;
     std::size_t received_ = 0;
@@ -319,7 +345,7 @@ private:
 /// @throws on all ranks or none: input_error if a position is not finite, or has left the box and may not (the message
 ///         names ids and positions), or the ranks are not those of the decomposition; limit_error, or std::bad_alloc on
 ///         the rank itself, where memory is short. Every particle is on the rank where it was then, ghosts are cleared;
-///         those that had left may be wrapped, or clamped.
+///         those that had left may be wrapped.
 /// Complexity: O(n) to see who leaves, all else by the leavers. 8 bytes to each rank that gets any, and their fields.
 /// Collective: yes; the same decomposition on all ranks. One reduction, another if a particle leaves; one message to
 ///             each rank that gets any.
@@ -327,7 +353,7 @@ template <class Store, decomposition Parts, transport Transport, lost_policy OnL
 migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}) {
     store.clear_ghosts();
     detail::migrator<Store, Parts> work(store, parts, on.rank(), on.memory());
-    constexpr bool collects = !std::is_same_v<OnLost, refuse_lost> && !std::is_same_v<OnLost, clamp_lost>;
+    constexpr bool collects = detail::collects_lost<OnLost>;
     enum : std::size_t { sent, lost };
     agreement<2> before(on.rank());
     before.attempt([&] {
@@ -351,6 +377,7 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
         after.attempt([] { throw; });
     }
     constexpr auto left = "every particle is on the rank where it was, ghosts are cleared";
+    if (before.has_failed()) work.put_back_clamped();
     before.settle("migrate", left);
     if (before[sent] == 0 && before[lost] == 0) return {};
 
@@ -362,6 +389,7 @@ migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_los
     on.reduce(after.words(), reduction::sum);
     if (after.has_failed() || after[0] != before[sent]) {
         work.drop_arrivals();
+        work.put_back_clamped();
         if constexpr (collects) detail::drop_rows(on_lost.into, collected_before);
         after.settle("migrate", left);
         detail::raise<limit_error>("migrate",

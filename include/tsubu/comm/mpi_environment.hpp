@@ -16,8 +16,8 @@ namespace tsubu {
 ///         const tsubu::mpi_environment mpi(argc, argv);
 ///         tsubu::mpi_transport on(MPI_COMM_WORLD);
 ///
-/// If the block is left by an exception that the program catches further out, all ranks are aborted: they might wait for
-/// this one for ever. One that nobody catches ends the process, and so mpirun the others.
+/// If the block is left by an exception that the program catches further out, all ranks are aborted: they might wait
+/// for this one for ever. One that nobody catches ends the process, and so mpirun the others.
 class mpi_environment {
 public:
     /// @throws mpi_error

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What holds when one rank is refused memory, at any place: all ranks learn of it, none has done anything, and the next
-/// call works.
+/// What holds when one rank is refused memory, at any place: all ranks learn of it, none has done anything, and the
+/// next call works.
 #include <tsubu/comm/halo.hpp>
 #include <tsubu/comm/local_transport.hpp>
 #include <tsubu/comm/migrate.hpp>

@@ -68,7 +68,8 @@ TEST_CASE("what is kept has an end", "[comm]") {
     }
     CHECK(memory.memory_bytes() >= 1000 * tsubu::message_memory::most_blocks);
     CHECK(memory.memory_bytes() < 1500 * tsubu::message_memory::most_blocks);
-    CHECK_THROWS_AS(memory.take<std::uint64_t>((std::numeric_limits<std::size_t>::max)() / 8), std::bad_array_new_length);
+    constexpr auto too_many = (std::numeric_limits<std::size_t>::max)() / 8;
+    CHECK_THROWS_AS(memory.take<std::uint64_t>(too_many), std::bad_array_new_length);
 }
 TEST_CASE("an array may outlive the memory that it is from", "[comm]") {
     tsubu::message_memory::array<std::uint64_t> words;

@@ -105,6 +105,40 @@ TEST_CASE("lost particles are not collected where they are lost from", "[comm][m
     CHECK_THROWS_AS(tsubu::migrate(g, bricks, on, tsubu::collect_lost(g)), tsubu::input_error);
     CHECK(g.owned_count() == 1);
 }
+TEST_CASE("a clamp that comes to nothing because another rank fails is undone", "[comm][migrate]") {
+    std::vector<char> right(2, 0);
+    tsubu::run_ranks(2, [&](tsubu::local_transport& on) {
+        const tsubu::brick_decomposition<2> bricks(tsubu::domain<2>({0, 0}, {1, 1}, {.periodic = {true, false}}), 2);
+        tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<2>>> g;
+        const auto nan = std::numeric_limits<double>::quiet_NaN();
+        g.push_back(tsubu::position<2> = on.rank() == 0 ? tsubu::vec<2>{1.25, 7} : tsubu::vec<2>{nan, 0});
+        bool has_thrown = false;
+        try {
+            tsubu::migrate(g, bricks, on, tsubu::clamp_lost{});
+        } catch (const tsubu::input_error&) {
+            has_thrown = true;
+        }
+        if (on.rank() == 1) g[tsubu::position<2>][0] = {0.75, 0.5};
+        const auto y = g[tsubu::position<2>][0][1];
+        const auto lost = tsubu::migrate(g, bricks, on, tsubu::clamp_lost{}).lost;
+        right[on.rank()] = has_thrown && y == (on.rank() == 0 ? 7 : 0.5) && lost == (on.rank() == 0 ? 1U : 0U);
+    });
+    CHECK(right == std::vector<char>(2, 1));
+}
+TEST_CASE("what is too far out for a wrap is collected as it is", "[comm][migrate]") {
+    tsubu::self_transport on;
+    const auto tilted = tilted_box_of<3>(1.7, 3);
+    const tsubu::cell_decomposition bricks(tilted, 1);
+    using store_type = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>>>;
+    store_type g;
+    store_type outside;
+    const tsubu::vec<3> far{0.1, 0.1, 1e300};
+    g.push_back(tsubu::position<3> = far);
+    CHECK(tsubu::migrate(g, bricks, on, tsubu::collect_lost(outside)).lost == 1);
+    CHECK(g.owned_count() == 0);
+    REQUIRE(outside.owned_count() == 1);
+    CHECK(outside[tsubu::position<3>][0] == far);
+}
 TEST_CASE("2000 steps of random motion lose nothing", "[comm][migrate]") {
     const auto box = box_of<3>(7);
     const tsubu::brick_decomposition<3> bricks(box, 4);

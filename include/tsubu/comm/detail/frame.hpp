@@ -12,13 +12,17 @@
 #include <tsubu/store/standard_fields.hpp>
 
 #include <cstddef>      // std::size_t
+#include <cstdint>      // std::int64_t
+#include <limits>       // std::numeric_limits
 #include <type_traits>  // std::is_same_v, std::remove_cv_t
 
 namespace tsubu::detail {
 
 template <std::size_t D>
 [[nodiscard]] constexpr image_shift<D> opposite(image_shift<D> shift) noexcept {
-    for (auto& one : shift) one = -one;
+    // What counting has ended at (see axis::wrap) has no opposite of its own.
+    for (auto& one : shift)
+        one = one == (std::numeric_limits<std::int64_t>::min)() ? (std::numeric_limits<std::int64_t>::max)() : -one;
     return shift;
 }
 

@@ -204,9 +204,13 @@ private:
         vec<D, real_type> hi{};
         for (std::size_t k = 0; k < D; ++k) {
             real_type reach = 0;
-            for (const auto& asker : askers) reach = (std::max)(reach, asker.near.reach()[k]);
-            lo[k] = here.lo()[k] + reach * (1 + 8 * std::numeric_limits<real_type>::epsilon());
-            hi[k] = here.hi()[k] - reach * (1 + 8 * std::numeric_limits<real_type>::epsilon());
+            real_type slack = 0;
+            for (const auto& asker : askers) {
+                reach = (std::max)(reach, asker.near.reach()[k]);
+                slack = (std::max)(slack, asker.near.slack(k));
+            }
+            lo[k] = here.lo()[k] + reach + slack;
+            hi[k] = here.hi()[k] - reach - slack;
         }
         candidates found;
         found.indices = on_->memory().template take<index_t>(last - first);

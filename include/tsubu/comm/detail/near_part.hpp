@@ -9,8 +9,9 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/domain/subdomain.hpp>
 
+#include <algorithm>  // std::clamp
 #include <array>    // std::array
-#include <cmath>    // std::abs
+#include <cmath>    // std::abs, std::ilogb, std::ldexp
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::int64_t
 #include <limits>   // std::numeric_limits
@@ -38,7 +39,10 @@ public:
             hi_[k] = there.hi()[k];
         }
         reach_ = reach_of(parts, cutoff, here, there);
-        limit_ = cutoff * cutoff * (1 + 4 * std::numeric_limits<real_type>::epsilon());
+        // A power of two, by which squares neither overflow nor vanish.
+        constexpr int most = std::numeric_limits<real_type>::max_exponent - 8;
+        if (cutoff > 0) scale_ = std::ldexp(real_type{1}, std::clamp(-std::ilogb(cutoff), -most, most));
+        limit_ = (cutoff * scale_) * (cutoff * scale_) * (1 + 4 * std::numeric_limits<real_type>::epsilon());
     }
     /// How far it reaches along each axis of the cell [D].
     [[nodiscard]] const real_position_type& reach() const noexcept { return reach_; }
@@ -64,13 +68,15 @@ public:
         constexpr auto everything = std::numeric_limits<real_type>::infinity();
         std::array<interval<real_type>, D> box{};
         for (std::size_t k = 0; k < D; ++k) {
-            const auto moved = static_cast<real_type>(shift_[k]) * box_->cell().along(k).real().length();
-            const auto slack = 32 * std::numeric_limits<real_type>::epsilon() *
-                               (std::abs(lo_[k]) + std::abs(hi_[k]) + std::abs(moved));
-            box[k] = {lo_[k] - reach_[k] - moved - slack, hi_[k] + reach_[k] - moved + slack};
+            box[k] = {lo_[k] - reach_[k] - moved(k) - slack(k), hi_[k] + reach_[k] - moved(k) + slack(k)};
         }
         if constexpr (cyclic_box<box_type>) box[0] = {-everything, everything};
         return {box, box, lo_, hi_};
+    }
+    /// How far images along an axis may be off by rounding.
+    [[nodiscard]] real_type slack(std::size_t k) const noexcept {
+        return 32 * std::numeric_limits<real_type>::epsilon() *
+               (std::abs(lo_[k]) + std::abs(hi_[k]) + std::abs(moved(k)));
     }
     /// @param at  a point of the box in coordinates of its cell
     [[nodiscard]] bool has(const typename Parts::position_type& at) const noexcept {
@@ -86,6 +92,9 @@ public:
     }
 
 private:
+    [[nodiscard]] real_type moved(std::size_t k) const noexcept {
+        return static_cast<real_type>(shift_[k]) * box_->cell().along(k).real().length();
+    }
     [[nodiscard]] bool is_near(const real_position_type& x) const noexcept {
         bool is_within_reach = true;
         real_type square = 0;
@@ -93,8 +102,8 @@ private:
             const real_type below = lo_[k] - x[k];
             const real_type above = x[k] - hi_[k];
             const real_type gap = below > 0 ? below : above > 0 ? above : 0;
-            square += gap * gap;
-            is_within_reach = is_within_reach && gap <= reach_[k];
+            square += (gap * scale_) * (gap * scale_);
+            is_within_reach = is_within_reach && gap <= reach_[k] + (is_round_ ? 0 : slack(k));
         }
         return is_round_ ? square <= limit_ : is_within_reach;
     }
@@ -105,6 +114,7 @@ private:
     real_position_type hi_{};
     real_position_type reach_{};
     real_type limit_ = 0;
+    real_type scale_ = 1;
     bool is_round_;
 };
 

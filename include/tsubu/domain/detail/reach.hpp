@@ -83,7 +83,12 @@ template <class Domain, class Decomposition, std::integral Rank, class Reach>
                                     Reach&& reach, bool is_round) {
     using Real = typename Domain::real_type;
     constexpr std::size_t D = Domain::dimension;
-    constexpr std::size_t most_neighbors = std::size_t{1} << 26;  // 2 GB of them
+    // 128 MB of them, and a cutoff of 100 boxes in all directions; beyond it the unit of the cutoff is wrong.
+    constexpr std::size_t most_neighbors = std::size_t{1} << 22;
+    const auto refuse = [&] {
+        raise<input_error>(where, "the cutoff reaches more than 2^22 images of ranks",
+                           "take a smaller cutoff, or a larger box");
+    };
     const auto rank = checked_rank(where, which, parts.ranks());
     const auto mine = parts.subdomain(rank);
     std::vector<neighbor_rank<D>> found;
@@ -96,12 +101,13 @@ template <class Domain, class Decomposition, std::integral Rank, class Reach>
         for (std::size_t k = 0; k < D; ++k)
             images[k] = reaching_images<Real>(where, cell.real_axis(k), {mine.lo()[k], mine.hi()[k]},
                                               {theirs.lo()[k], theirs.hi()[k]}, near[k]);
+        double combinations = 1;  // of which a sphere takes half
+        for (const auto& along : images) combinations *= static_cast<double>(along.size());
+        if (combinations > 4.0 * most_neighbors) refuse();
         const auto combine = [&](auto&& self, std::size_t k, Real square) -> void {
             if (k == D) {
                 if (other != rank || shift != image_shift<D>{}) found.push_back({static_cast<rank_t>(other), shift});
-                if (found.size() > most_neighbors)
-                    raise<input_error>(where, "the cutoff reaches more than 2^26 images of ranks",
-                                       "take a smaller cutoff, or a larger box");
+                if (found.size() > most_neighbors) refuse();
                 return;
             }
             for (const auto& image : images[k]) {

@@ -15,6 +15,7 @@
 #include <cstddef>             // std::size_t
 #include <cstdint>             // std::uint64_t
 #include <exception>           // std::exception_ptr
+#include <limits>              // std::numeric_limits
 #include <map>                 // std::map
 #include <mutex>               // std::mutex
 #include <span>                // std::span
@@ -31,7 +32,7 @@ namespace detail {
 /// What the threads of a local_transport share: where they meet, and what they lay down for each other.
 class meeting_place {
 public:
-    explicit meeting_place(std::size_t ranks) : posts_(ranks) {}
+    explicit meeting_place(std::size_t ranks) : posts_(ranks), how_left_(ranks, here) {}
     [[nodiscard]] std::size_t ranks() const noexcept { return posts_.size(); }
 
     /// What a rank shows the others between two meetings.
@@ -42,19 +43,19 @@ public:
     };
     [[nodiscard]] post& at(std::size_t rank) noexcept { return posts_[rank]; }
 
-    /// Waits until all ranks are here. @throws lost_rank_error if one has ended.
+    /// Waits until all ranks are here. @throws lost_rank_error if one has ended, and so never comes.
     void meet() {
         std::unique_lock lock(mutex_);
-        refuse_if_broken();
-        if (++here_ == ranks()) {
-            here_ = 0;
+        if (lost_ != nobody) refuse(lost_);
+        if (++waiting_ == ranks()) {
+            waiting_ = 0;
             ++meetings_;
             changed_.notify_all();
             return;
         }
         const auto now = meetings_;
-        changed_.wait(lock, [&] { return meetings_ != now || is_broken_; });
-        if (meetings_ == now) refuse_if_broken();
+        changed_.wait(lock, [&] { return meetings_ != now || lost_ != nobody; });
+        if (meetings_ == now) refuse(lost_);
     }
     void put(rank_t from, rank_t to, int tag, std::vector<std::uint64_t> words) {
         const std::lock_guard lock(mutex_);
@@ -68,17 +69,20 @@ public:
         const std::lock_guard lock(mutex_);
         return ways_[{from, to, tag}].asked++;
     }
+    /// What was put before its sender ended is still there to be taken. @throws lost_rank_error if it never comes.
     [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag, std::uint64_t which) {
         std::unique_lock lock(mutex_);
         auto& messages = ways_[{from, to, tag}].messages;
-        changed_.wait(lock, [&] { return messages.count(which) != 0 || is_broken_; });
-        refuse_if_broken();
+        changed_.wait(lock, [&] { return messages.count(which) != 0 || how_left_[from] != here; });
+        if (messages.count(which) == 0) refuse(from);
         return std::move(messages.extract(which).mapped());
     }
+    enum presence : char { here, returned, thrown };
     /// A rank has ended: nobody is to wait for it.
-    void leave() noexcept {
+    void leave(std::size_t rank, presence how) noexcept {
         const std::lock_guard lock(mutex_);
-        is_broken_ = true;
+        how_left_[rank] = how;
+        if (lost_ == nobody) lost_ = rank;
         changed_.notify_all();
     }
 
@@ -89,18 +93,23 @@ private:
         std::uint64_t asked = 0;
     };
 
-    void refuse_if_broken() const {
-        if (is_broken_)
-            throw lost_rank_error("tsubu::local_transport: another rank has ended by an exception; see that one");
+    static constexpr auto nobody = (std::numeric_limits<std::size_t>::max)();
+    [[noreturn]] void refuse(std::size_t rank) const {
+        const auto who = "rank " + std::to_string(rank);
+        if (how_left_[rank] == thrown)
+            raise<lost_rank_error>("local_transport", who + " has ended by an exception", "see that one");
+        raise<lost_rank_error>("local_transport", who + " has returned, and is waited for",
+                               "call the same functions on all ranks");
     }
 
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<post> posts_;
     std::map<std::tuple<rank_t, rank_t, int>, way> ways_;
-    std::size_t here_ = 0;
+    std::vector<presence> how_left_;
+    std::size_t lost_ = nobody;  // the first that has ended
+    std::size_t waiting_ = 0;
     std::uint64_t meetings_ = 0;
-    bool is_broken_ = false;
 };
 
 }  // namespace detail
@@ -116,6 +125,10 @@ public:
         // What few numbers need is there: where memory is short, ranks can still tell each other.
         std::apply([](auto&... found) { (found.reserve(64), ...); }, found_);
     }
+
+    // Two of one rank would count its tags apart.
+    local_transport(const local_transport&) = delete;
+    local_transport& operator=(const local_transport&) = delete;
 
     [[nodiscard]] rank_t rank() const noexcept { return rank_; }
     [[nodiscard]] std::size_t ranks() const noexcept { return place_->ranks(); }
@@ -263,27 +276,39 @@ static_assert(transport<local_transport>);
 ///
 ///     tsubu::run_ranks(4, [](tsubu::local_transport& on) { ... });
 ///
-/// @throws what the lowest rank threw that did not merely wait for another one; all threads have ended then.
+/// A rank that waits for one that has returned gets a lost_rank_error, as it does for one that has thrown.
+///
+/// @throws what the lowest rank threw that did not merely wait for another one; std::system_error or std::bad_alloc if
+///         a thread cannot be started; all threads have ended then.
 template <class Body>
 void run_ranks(std::size_t ranks, Body&& body) {
-    detail::meeting_place place(ranks);
+    using detail::meeting_place;
+    meeting_place place(ranks);
     std::vector<std::exception_ptr> thrown(ranks);
     std::vector<char> has_waited(ranks, 0);  // not vector<bool>, whose bits threads would share
+    const auto run = [&](std::size_t rank) noexcept {
+        try {
+            local_transport on(place, static_cast<rank_t>(rank));
+            body(on);
+        } catch (const lost_rank_error&) {
+            thrown[rank] = std::current_exception();
+            has_waited[rank] = 1;
+        } catch (...) {
+            thrown[rank] = std::current_exception();
+        }
+        place.leave(rank, thrown[rank] ? meeting_place::thrown : meeting_place::returned);
+    };
+    std::exception_ptr not_started;
     std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-        threads.emplace_back([&, rank] {
-            try {
-                local_transport on(place, static_cast<rank_t>(rank));
-                body(on);
-            } catch (const lost_rank_error&) {
-                thrown[rank] = std::current_exception();
-                has_waited[rank] = 1;
-            } catch (...) {
-                thrown[rank] = std::current_exception();
-            }
-            if (thrown[rank]) place.leave();
-        });
+    try {
+        threads.reserve(ranks);
+        for (std::size_t rank = 0; rank < ranks; ++rank) threads.emplace_back(run, rank);
+    } catch (...) {  // kept: those that have started are to end first
+        not_started = std::current_exception();
+        for (auto rank = threads.size(); rank < ranks; ++rank) place.leave(rank, meeting_place::thrown);
+    }
     for (auto& one : threads) one.join();
+    if (not_started) std::rethrow_exception(not_started);
     for (const bool waited : {false, true})
         for (std::size_t rank = 0; rank < ranks; ++rank)
             if (thrown[rank] && (has_waited[rank] != 0) == waited) std::rethrow_exception(thrown[rank]);

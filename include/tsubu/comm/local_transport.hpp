@@ -10,7 +10,8 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>           // std::copy, std::max, std::min
+#include <algorithm>           // std::copy, std::copy_n, std::max, std::min
+#include <array>               // std::array
 #include <condition_variable>  // std::condition_variable
 #include <cstddef>             // std::size_t
 #include <cstdint>             // std::uint64_t
@@ -21,7 +22,7 @@
 #include <span>                // std::span
 #include <string>              // std::to_string
 #include <thread>              // std::thread
-#include <tuple>               // std::apply, std::get, std::tuple
+#include <tuple>               // std::tuple
 #include <type_traits>         // std::is_same_v
 #include <utility>             // std::move
 #include <vector>              // std::vector
@@ -117,14 +118,12 @@ private:
 /// One of several ranks of a process, each in a thread: made by run_ranks.
 ///
 /// Concept:      transport.
-/// Cost:         two meetings of all threads per collective; O(ranks) per rank for an exchange.
+/// Cost:         two meetings of all threads per collective, one more per 64 numbers that are reduced; O(ranks) per rank
+///               for an exchange.
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:
-    local_transport(detail::meeting_place& place, rank_t rank) : place_(&place), rank_(rank) {
-        // What few numbers need is there: where memory is short, ranks can still tell each other.
-        std::apply([](auto&... found) { (found.reserve(64), ...); }, found_);
-    }
+    local_transport(detail::meeting_place& place, rank_t rank) noexcept : place_(&place), rank_(rank) {}
 
     // Two of one rank would count its tags apart.
     local_transport(const local_transport&) = delete;
@@ -138,33 +137,27 @@ public:
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
         for (const auto& one : parcels) detail::check_parcel("local_transport::exchange", one, ranks());
         mailbox came(memory_);
-        together({parcels, sums, {}}, [&](auto& found) {
-            reduce_into(found, sums.size(), reduction::sum);
+        together({parcels, sums, {}}, sums, reduction::sum, [&] {
             for (std::size_t from = 0; from < ranks(); ++from)
                 for (const auto& one : place_->at(from).parcels)
                     if (one.rank == rank_) came.add(parcel{static_cast<rank_t>(from), one.words});
-        }, sums);
+        });
         return came;
     }
     void reduce(std::span<std::uint64_t> numbers, reduction how) {
-        together({{}, numbers, {}}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
+        together({{}, numbers, {}}, numbers, how, [] {});
     }
     void reduce(std::span<double> numbers, reduction how) {
-        together({{}, {}, numbers}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
+        together({{}, {}, numbers}, numbers, how, [] {});
     }
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
         mailbox came(memory_);
-        together({{}, words, {}}, [&](auto&) {
-            for (std::size_t from = 0; from < ranks(); ++from)
-                came.add(parcel{static_cast<rank_t>(from), place_->at(from).words});
-        }, std::span<std::uint64_t>());
+        look_at({rank_, words}, [&](const parcel& theirs) { came.add(theirs); });
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
         std::uint64_t sum = 0;
-        together({{}, {&n, 1}, {}}, [&](auto&) {
-            for (std::size_t from = 0; from < rank_; ++from) sum += place_->at(from).words[0];
-        }, std::span<std::uint64_t>());
+        look_at({rank_, {&n, 1}}, [&](const parcel& theirs) { sum += theirs.rank < rank_ ? theirs.words[0] : 0; });
         return sum;
     }
     [[nodiscard]] int next_tag() noexcept { return tag_++; }
@@ -219,56 +212,75 @@ public:
     };
 
 private:
-    // Shows what this rank has, meets, looks at what the others show, meets again; then the answer may take the place
-    // of what was shown.
-    template <class Look, class Number>
-    void together(detail::meeting_place::post mine, Look&& look, std::span<Number> answer) {
+    // Shows what this rank has, meets, looks at what the others show, and meets again. Then each number that was shown
+    // becomes that of all ranks, some at a time: that asks for no memory, so that ranks can tell each other that they
+    // have none.
+    template <class Number, class Look>
+    void together(const detail::meeting_place::post& mine, std::span<Number> numbers, reduction how, Look&& look) {
         place_->at(rank_) = mine;
         place_->meet();
-        auto& found = std::get<std::vector<Number>>(found_);
-        found.clear();
+        bool is_same = true;  // if not, all ranks see it
+        for (std::size_t from = 0; from < ranks(); ++from)
+            is_same = is_same && shown<Number>(from).size() == numbers.size();
         std::exception_ptr thrown;
         try {
-            look(found);
+            if (!is_same) refuse_counts<Number>(numbers.size());
+            look();
         } catch (...) {  // kept: the others still look at what this rank shows
             thrown = std::current_exception();
         }
-        place_->meet();
-        if (found.size() == answer.size()) std::copy(found.begin(), found.end(), answer.begin());
+        std::array<Number, 64> found{};
+        const auto total = is_same ? numbers.size() : 0;
+        std::size_t done = 0;
+        do {
+            const auto count = (std::min)(found.size(), total - done);
+            for (std::size_t k = 0; k < count; ++k) found[k] = reduced<Number>(done + k, how);
+            place_->meet();
+            std::copy_n(found.begin(), count, numbers.subspan(done).begin());
+            done += count;
+        } while (done < total);
         if (thrown) std::rethrow_exception(thrown);
     }
+    // At what each rank shows.
+    template <class Look>
+    void look_at(const parcel& mine, Look&& look) {
+        together({{&mine, 1}, {}, {}}, std::span<std::uint64_t>(), reduction::sum, [&] {
+            for (std::size_t from = 0; from < ranks(); ++from)
+                for (const auto& one : place_->at(from).parcels) look(one);
+        });
+    }
     template <class Number>
-    void reduce_into(std::vector<Number>& all, std::size_t count, reduction how) const {
-        for (std::size_t from = 0; from < ranks(); ++from) {
-            const auto& shown = place_->at(from);
-            const auto theirs = [&] {
-                if constexpr (std::is_same_v<Number, double>)
-                    return shown.numbers;
-                else
-                    return shown.words;
-            }();
-            if (theirs.size() != count)
-                detail::raise<input_error>("local_transport",
-                                           "rank " + std::to_string(from) + " reduces " +
-                                               std::to_string(theirs.size()) + " numbers, this one " +
-                                               std::to_string(count),
-                                           "call the same functions on all ranks");
-            if (all.empty()) {
-                all.assign(theirs.begin(), theirs.end());
-                continue;
-            }
-            for (std::size_t k = 0; k < count; ++k)
-                all[k] = how == reduction::sum     ? all[k] + theirs[k]
-                         : how == reduction::least ? (std::min)(all[k], theirs[k])
-                                                   : (std::max)(all[k], theirs[k]);
+    [[nodiscard]] std::span<const Number> shown(std::size_t from) const noexcept {
+        if constexpr (std::is_same_v<Number, double>)
+            return place_->at(from).numbers;
+        else
+            return place_->at(from).words;
+    }
+    template <class Number>
+    [[nodiscard]] Number reduced(std::size_t k, reduction how) const noexcept {
+        auto result = shown<Number>(0)[k];
+        for (std::size_t from = 1; from < ranks(); ++from) {
+            const auto other = shown<Number>(from)[k];
+            result = how == reduction::sum     ? result + other
+                     : how == reduction::least ? (std::min)(result, other)
+                                               : (std::max)(result, other);
         }
+        return result;
+    }
+    template <class Number>
+    void refuse_counts(std::size_t count) const {
+        for (std::size_t from = 0; from < ranks(); ++from)
+            if (const auto theirs = shown<Number>(from).size(); theirs != count)
+                detail::raise<input_error>("local_transport",
+                                           "rank " + std::to_string(from) + " reduces " + std::to_string(theirs) +
+                                               " numbers, this one " + std::to_string(count),
+                                           "call the same functions on all ranks");
     }
 
     detail::meeting_place* place_;
     rank_t rank_;
     int tag_ = 0;
     message_memory memory_;
-    std::tuple<std::vector<std::uint64_t>, std::vector<double>> found_;  // by the last reduction
 };
 static_assert(transport<local_transport>);
 

@@ -20,7 +20,7 @@
 #include <tsubu/domain/brick_decomposition.hpp>
 #include <tsubu/domain/cuts.hpp>
 
-#include <algorithm>    // std::max, std::min, std::upper_bound
+#include <algorithm>    // std::max, std::min
 #include <array>        // std::array
 #include <cmath>        // std::isfinite
 #include <cstddef>      // std::size_t
@@ -156,14 +156,16 @@ private:
             if (brackets_.empty() || !(brackets_.back() == one)) brackets_.push_back(one);
         sums_.assign(brackets_.size() * bins, 0);
         for (std::size_t i = 0; i < x.size(); ++i) {
-            // They increase: the last one that does not begin above x.
-            const auto above = std::upper_bound(brackets_.begin(), brackets_.end(), x[i],
-                                                [](Real at, const bracket& one) { return at < one.lo; });
-            if (above == brackets_.begin()) continue;  // below all cuts
-            const auto& in = *(above - 1);
-            if (!(in.lo < in.hi) || (x[i] >= in.hi && in.hi < last_)) continue;
+            // They increase: the last one that does not begin above x. Without branches, which nobody could foretell.
+            std::size_t k = 0;
+            for (auto count = brackets_.size(); count > 1;) {
+                const auto half = count / 2;
+                k += brackets_[k + half].lo <= x[i] ? half : 0;
+                count -= half;
+            }
+            const auto& in = brackets_[k];
+            if (x[i] < in.lo || !(in.lo < in.hi) || (x[i] >= in.hi && in.hi < last_)) continue;
             const auto bin = static_cast<std::size_t>((x[i] - in.lo) / (in.hi - in.lo) * Real{bins});
-            const auto k = static_cast<std::size_t>(above - 1 - brackets_.begin());
             sums_[k * bins + (std::min)(bin, bins - 1)] += weights[i];
         }
     }

@@ -121,6 +121,26 @@ TEST_CASE("if a thread cannot be started, those that were end first", "[comm][lo
     CHECK_FALSE(was_refused);
     CHECK(least_started < 3);
 }
+TEST_CASE("a reduction asks for no memory, however many numbers it has", "[comm][local_transport]") {
+    std::vector<std::size_t> asked(3, 99);
+    std::vector<char> is_right(3, 1);
+    tsubu::run_ranks(3, [&](tsubu::local_transport& on) {
+        std::vector<std::uint64_t> words(200);
+        std::vector<double> numbers(64);
+        for (std::size_t k = 0; k < words.size(); ++k) words[k] = k + on.rank();
+        for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = static_cast<double>(k) - on.rank();
+        asked[on.rank()] = counted_memory::times_asked([&] {
+            on.reduce(std::span<std::uint64_t>(words), tsubu::reduction::sum);
+            on.reduce(std::span<double>(numbers), tsubu::reduction::least);
+        });
+        for (std::size_t k = 0; k < words.size(); ++k)
+            if (words[k] != 3 * k + 3) is_right[on.rank()] = 0;
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            if (numbers[k] != static_cast<double>(k) - 2) is_right[on.rank()] = 0;
+    });
+    CHECK(asked == std::vector<std::size_t>(3, 0));
+    CHECK(is_right == std::vector<char>(3, 1));
+}
 static_assert(!std::is_copy_constructible_v<tsubu::local_transport> &&
               !std::is_copy_assignable_v<tsubu::local_transport>);
 TEST_CASE("run_ranks waits for all ranks, and gives each its number", "[comm][local_transport]") {

@@ -102,8 +102,8 @@ private:
     double most_ = 0;  // units of the heaviest
 };
 
-/// The cuts along one axis that give each part the same weight, as near as cuts between bins can be. Where nothing has a
-/// weight, parts are equally wide.
+/// The cuts along one axis that give each part the same weight, as near as cuts between bins can be. Where nothing has
+/// a weight, parts are equally wide.
 ///
 /// Each round looks into the bin that a cut lies in, and divides it anew: 64 bins a round, until they are as narrow as
 /// 2^-24 of the axis.
@@ -241,8 +241,8 @@ void check_grid(const char* where, const Cell& cell, const std::array<std::size_
 /// @param weights    of each, such as its seconds or its contacts [n]; or none on any rank: then all are 1
 /// @param least      width of a part along each axis, in units of the cell: at least the cutoff, if halos are not to
 ///                   reach over several ranks
-/// Without particles, or if all weights are 0, parts are equally wide. Where cuts would coincide, as if all particles lie
-/// in one point, a part keeps 1e-6 of an even one.
+/// Without particles, or if all weights are 0, parts are equally wide. Where cuts would coincide, as if all particles
+/// lie in one point, a part keeps 1e-6 of the width of an even one.
 ///
 /// @throws on all ranks or none: input_error if a weight is negative or not finite, there is not one for each, some
 ///         ranks give weights and others none, the grid has not as many parts as there are ranks, or an axis has no

@@ -118,8 +118,8 @@ private:
 /// One of several ranks of a process, each in a thread: made by run_ranks.
 ///
 /// Concept:      transport.
-/// Cost:         two meetings of all threads per collective, one more per 64 numbers that are reduced; O(ranks) per rank
-///               for an exchange.
+/// Cost:         two meetings of all threads per collective, one more for each 64 numbers after the first ones;
+///               O(ranks) per rank for an exchange.
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:

@@ -56,8 +56,8 @@ public:
     }
 
     /// So many ids for this rank, which follow one another; the first of them. Those for no particle mean nothing.
-    /// @throws limit_error on all ranks if the type of ids has not so many (2^64 - 1 is not handed out: next() could not
-    ///         be past it); none is handed out then.
+    /// @throws limit_error on all ranks if the type of ids has not so many (2^64 - 1 is not handed out: next() could
+    ///         not be past it); none is handed out then.
     /// Collective: yes, each rank with a number of its own; a reduction and a sum over the ranks below.
     template <transport Transport>
     [[nodiscard]] Id take(Transport& on, std::size_t count) {

@@ -58,8 +58,8 @@ template <particle_id Id>
 /// @throws on all ranks or none: input_error if an id or `first` is negative, an id is owned twice, or `first` differs
 ///         between ranks; limit_error if the type of ids has not so many; std::bad_alloc on the rank itself.
 /// Complexity: O(n log n), 8 bytes per id there and back; a sample of 512 bytes from each rank to each.
-/// Collective: yes; the same type of ids and the same `first` on all ranks. A gather, two rounds of messages, a sum over
-///             the ranks below, eight reductions.
+/// Collective: yes; the same type of ids and the same `first` on all ranks. A gather, two rounds of messages, a sum
+///             over the ranks below, eight reductions.
 template <transport Transport, detail::id_list Ids>
 [[nodiscard]] std::vector<detail::element_of<Ids>> renumbered(Transport& on, const Ids& owned,
                                                               detail::element_of<Ids> first = 1) {

@@ -105,10 +105,21 @@ void work_is_balanced(Transport& on, Check&& check) {
           "parts: too wide is refused with the numbers");
     auto costs = costs_of(g);
     if (on.rank() + 1 == ranks && !costs.empty()) costs.front() = std::numeric_limits<double>::quiet_NaN();
-    check(refuses([&] {
+    check(thrown<tsubu::error>([&] {
               static_cast<void>(tsubu::balanced_bricks(on, box, {1, 1, ranks}, g.owned()[tsubu::position<3>], costs));
           }) != "nothing was thrown",
           "bricks: a weight that is no number is refused on all");
+    const auto some = on.rank() == 0 ? std::vector<double>() : costs_of(g);
+    for (const bool asks_for_bricks : {true, false}) {
+        const auto mixed = refuses([&] {
+            if (asks_for_bricks)
+                static_cast<void>(
+                    tsubu::balanced_bricks(on, box, {1, 1, ranks}, g.owned()[tsubu::position<3>], some));
+            else
+                static_cast<void>(tsubu::balanced_parts(on, box, g.owned()[tsubu::position<3>], some));
+        });
+        check(says(mixed, "1 with particles give none") == (ranks > 1), "weights: on all ranks, or on none");
+    }
     check(refuses([&] {
               static_cast<void>(tsubu::balanced_bricks(on, box, {1, 2, ranks}, g.owned()[tsubu::position<3>]));
           }) != "nothing was thrown",
@@ -126,8 +137,26 @@ void work_is_balanced(Transport& on, Check&& check) {
     for (auto& x : g.owned()[tsubu::position<3>]) x = {0.5, 0.5, 0.5};
     static_cast<void>(tsubu::balanced_bricks(on, box, {1, 1, ranks}, g.owned()[tsubu::position<3>]));
     heaped none;
-    static_cast<void>(tsubu::balanced_bricks(on, box, {1, 1, ranks}, none.owned()[tsubu::position<3>]));
     static_cast<void>(tsubu::balanced_parts(on, box, none.owned()[tsubu::position<3>]));
+    const auto is_even = [&](const heaped& of, const std::vector<double>& weights) {
+        const auto bricks = tsubu::balanced_bricks(on, box, {1, 1, ranks}, of.owned()[tsubu::position<3>], weights);
+        bool all_are = true;
+        for (std::size_t k = 0; k < ranks; ++k)
+            all_are = all_are && std::abs(bricks.along(2).begin(k) - 3 * static_cast<double>(k) /
+                                                                         static_cast<double>(ranks)) < 1e-12;
+        return all_are;
+    };
+    check(is_even(none, {}), "bricks: without particles of one width");
+    check(is_even(h, std::vector<double>(h.owned_count())), "bricks: without weight of one width");
+
+    // As light as can be, and as heavy: only the ratios count.
+    const auto unweighted = tsubu::balanced_bricks(on, box, {1, 1, ranks}, h.owned()[tsubu::position<3>]);
+    for (const double weight : {1e-320, std::numeric_limits<double>::denorm_min(), 1e308}) {
+        const auto weighted = tsubu::balanced_bricks(on, box, {1, 1, ranks}, h.owned()[tsubu::position<3>],
+                                                     std::vector<double>(h.owned_count(), weight));
+        for (std::size_t k = 0; k < ranks; ++k)
+            check(weighted.along(2).begin(k) == unweighted.along(2).begin(k), "bricks: weights of any magnitude");
+    }
 }
 
 }  // namespace comm_laws

@@ -12,8 +12,10 @@
 #include "unit/thrown.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -65,7 +67,7 @@ void directory_finds_owners(Transport& on, std::uint64_t seed, Check&& check) {
     auto doubled = mine;
     if (on.rank() == 0) doubled.push_back(dealt.all.back());
     const auto message =
-        thrown<tsubu::input_error>([&] { owners.rebuild(on, std::span<const Id>(doubled)); });
+        thrown<tsubu::error>([&] { owners.rebuild(on, std::span<const Id>(doubled)); });
     check(message != "nothing was thrown", "directory: a duplicate is refused on all ranks");
     const auto still = owners.find(on, std::span<const Id>(dealt.all));
     check(std::equal(still.begin(), still.end(), dealt.owners.begin()), "directory: as before after a refusal");
@@ -99,13 +101,30 @@ void new_ids_never_collide(Transport& on, std::uint64_t seed, Check&& check) {
     check(says(thrown<tsubu::limit_error>([&] { static_cast<void>(few.take(on, on.rank() == 0 ? 9 : 0)); }), "9 ids"),
           "new ids: refused past the type");
     check(few.take(on, 0) == 2147483640, "new ids: none was handed out by a refusal");
+    const auto last = static_cast<tsubu::rank_t>(on.ranks() - 1);
+    check(few.take(on, on.rank() == last ? 8 : 0) == 2147483640, "new ids: up to the last of the type");
+    check(few.next() == 2147483648, "new ids: then there is none left");
+    const auto is_refused = [&](auto& ids_left) {
+        return thrown<tsubu::limit_error>([&] { static_cast<void>(ids_left.take(on, 1)); }) != "nothing was thrown";
+    };
+    check(is_refused(few), "new ids: none past the last");
+    static_cast<void>(few.take(on, 0));
+    constexpr auto greatest_word = (std::numeric_limits<std::uint64_t>::max)();
+    tsubu::new_ids<std::uint64_t> words(greatest_word - 1);
+    check(words.take(on, on.rank() == last ? 1 : 0) == greatest_word - 1, "new ids: words up to 2^64 - 2");
+    check(is_refused(words), "new ids: those that are handed out do not begin anew");
+    std::vector<std::uint64_t> top;
+    if (on.rank() == last) top.push_back(greatest_word);
+    check(thrown<tsubu::error>([&] { static_cast<void>(tsubu::new_ids<std::uint64_t>::above(on, top)); }) !=
+              "nothing was thrown",
+          "new ids: none is above 2^64 - 1");
 }
 
 template <class Id, class Transport, class Check>
 void renumbering_depends_on_ids_alone(Transport& on, std::uint64_t seed, Check&& check) {
     const dealt_ids<Id> dealt(seed, 300, on.ranks());
     const auto mine = dealt.of(on.rank());
-    const auto fresh = tsubu::renumbered<Id>(on, mine, Id{7});
+    const auto fresh = tsubu::renumbered(on, mine, Id{7});
     check(fresh.size() == mine.size(), "renumbered: one for each");
     for (std::size_t k = 0; k < fresh.size(); ++k) {
         const auto place = std::lower_bound(dealt.all.begin(), dealt.all.end(), mine[k]) - dealt.all.begin();
@@ -113,12 +132,18 @@ void renumbering_depends_on_ids_alone(Transport& on, std::uint64_t seed, Check&&
     }
     auto doubled = mine;
     if (on.rank() == 0) doubled.push_back(dealt.all.front());
-    check(thrown<tsubu::input_error>([&] { static_cast<void>(tsubu::renumbered<Id>(on, doubled)); }) !=
-              "nothing was thrown",
+    check(thrown<tsubu::error>([&] { static_cast<void>(tsubu::renumbered(on, doubled)); }) != "nothing was thrown",
           "renumbered: a duplicate is refused on all ranks");
+    check(thrown<tsubu::error>([&] { static_cast<void>(tsubu::renumbered(on, mine, Id{-5})); }) !=
+              "nothing was thrown",
+          "renumbered: not from a negative id on");
     if (on.ranks() == 1) return;
+    const auto own_first = static_cast<Id>(on.rank() == 0 ? 4 : 3);
+    check(says(thrown<tsubu::input_error>([&] { static_cast<void>(tsubu::renumbered(on, mine, own_first)); }),
+               "3 on one rank, and 4 on another"),
+          "renumbered: the first id is the same on all ranks");
     const std::vector<Id> none;
-    check(tsubu::renumbered<Id>(on, on.rank() == 0 ? std::span<const Id>(mine) : std::span<const Id>(none)).size() ==
+    check(tsubu::renumbered(on, on.rank() == 0 ? std::span<const Id>(mine) : std::span<const Id>(none)).size() ==
               (on.rank() == 0 ? mine.size() : 0),
           "renumbered: ranks without particles");
 }
@@ -147,6 +172,25 @@ void duplicates_are_told(Transport& on, std::uint64_t seed, Check&& check) {
     check(found.here == expected, "duplicates: told to those that own them");
 }
 
+/// Whatever the ids lie in: twice the same in each.
+template <class Transport, class Check>
+void ids_lie_in_a_row(Transport& on, Check&& check) {
+    const auto first = std::int64_t{1000} * on.rank();
+    std::vector<std::int64_t> in_vector{first + 3, first + 1, first + 2};
+    const std::array<std::int64_t, 3> in_array{first + 3, first + 1, first + 2};
+    const std::int64_t in_plain_array[] = {first + 3, first + 1, first + 2};
+    const auto expected = tsubu::renumbered(on, in_vector);
+    const auto is_same = [&](const auto& ids) {
+        return tsubu::duplicate_ids(on, ids).empty() && tsubu::renumbered(on, ids) == expected;
+    };
+    check(is_same(std::span<std::int64_t>(in_vector)), "a row: span");
+    check(is_same(std::span<const std::int64_t>(in_vector)), "a row: span of const");
+    check(is_same(in_array), "a row: array");
+    check(is_same(in_plain_array), "a row: plain array");
+    in_vector[0] = in_vector[1];
+    check(tsubu::duplicate_ids(on, in_vector).total == on.ranks(), "a row: vector");
+}
+
 template <class Transport, class Check>
 void ids_are_served(Transport& on, Check&& check) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -157,14 +201,15 @@ void ids_are_served(Transport& on, Check&& check) {
         renumbering_depends_on_ids_alone<std::int32_t>(on, seed, check);
         duplicates_are_told(on, seed, check);
     }
+    ids_lie_in_a_row(on, check);
     std::vector<std::int64_t> ids{5, 6};
     if (on.rank() + 1 == on.ranks()) ids[1] = -3;
     const std::span<const std::int64_t> negative(ids);
     tsubu::id_directory<> owners;
-    const auto refused = [&](auto&& call) { return thrown<tsubu::input_error>(call) != "nothing was thrown"; };
+    const auto refused = [&](auto&& call) { return thrown<tsubu::error>(call) != "nothing was thrown"; };
     check(refused([&] { owners.rebuild(on, negative); }), "directory: a negative id is refused on all");
     check(refused([&] { static_cast<void>(tsubu::new_ids<>::above(on, negative)); }), "new ids: so it is");
-    check(refused([&] { static_cast<void>(tsubu::renumbered<std::int64_t>(on, negative)); }), "renumbered: so it is");
+    check(refused([&] { static_cast<void>(tsubu::renumbered(on, negative)); }), "renumbered: so it is");
     check(refused([&] { static_cast<void>(tsubu::duplicate_ids(on, negative)); }), "duplicates: so it is");
 }
 

@@ -36,7 +36,7 @@ private:
 /// What the twins share: everything right. They override it, for a suite that is compiled once for all of them.
 class sound_transport {
 public:
-    explicit sound_transport(const local_transport& on) : on_(on) {}
+    explicit sound_transport(local_transport& on) : on_(on) {}
     sound_transport(const sound_transport&) = delete;
     sound_transport& operator=(const sound_transport&) = delete;
     virtual ~sound_transport() = default;
@@ -76,7 +76,7 @@ protected:
     }
 
 private:
-    local_transport on_;
+    local_transport& on_;
 };
 static_assert(transport<sound_transport>);
 
@@ -332,12 +332,12 @@ struct one_tag_for_all : sound_transport {
 struct transport_twin {
     const char* name;
     const char* breaks;
-    std::unique_ptr<sound_transport> (*make)(const local_transport&);
+    std::unique_ptr<sound_transport> (*make)(local_transport&);
 };
 template <class Twin>
 [[nodiscard]] transport_twin twin(const char* name) {
     return {name, Twin::breaks,
-            [](const local_transport& on) -> std::unique_ptr<sound_transport> { return std::make_unique<Twin>(on); }};
+            [](local_transport& on) -> std::unique_ptr<sound_transport> { return std::make_unique<Twin>(on); }};
 }
 [[nodiscard]] inline std::vector<transport_twin> transport_twins() {
     return {twin<loses_empty_parcels>("loses_empty_parcels"),

@@ -5,10 +5,9 @@
 
 #include <tsubu/comm/detail/agreed_exchange.hpp>
 #include <tsubu/comm/detail/home_calls.hpp>
+#include <tsubu/comm/detail/id_list.hpp>
 #include <tsubu/comm/mailbox.hpp>
 #include <tsubu/comm/transport.hpp>
-#include <tsubu/core/error.hpp>
-#include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 
 #include <algorithm>  // std::sort
@@ -16,7 +15,6 @@
 #include <cstdint>    // std::uint64_t
 #include <map>        // std::map
 #include <span>       // std::span
-#include <string>     // std::to_string
 #include <utility>    // std::pair
 #include <vector>     // std::vector
 
@@ -52,11 +50,7 @@ namespace detail {
 /// Ids of this rank, each at most twice.
 template <particle_id Id>
 [[nodiscard]] std::vector<Id> at_most_twice(std::span<const Id> owned) {
-    for (std::size_t i = 0; i < owned.size(); ++i)
-        if (is_negative(owned[i]))
-            raise<input_error>("duplicate_ids",
-                               "the id at index " + std::to_string(i) + " is " + std::to_string(owned[i]),
-                               "ids of particles are 0 or greater");
+    check_ids("duplicate_ids", owned);
     std::vector<Id> sorted(owned.begin(), owned.end());
     std::sort(sorted.begin(), sorted.end());
     std::size_t kept = 0;
@@ -101,31 +95,31 @@ private:
 
 /// Which ids are owned more than once, over all ranks?
 ///
-///     auto twice = tsubu::duplicate_ids<std::int64_t>(on, ids_of_owned);     // rank 0 {1, 2}, rank 1 {2, 3}
+///     auto twice = tsubu::duplicate_ids(on, ids_of_owned);                     // rank 0 {1, 2}, rank 1 {2, 3}
 ///     for (auto d : twice.here) print(d.id, d.first_rank, d.last_rank);        // on ranks 0 and 1: 2 0 1
 ///     if (!twice.empty()) stop();                                              // the same on all ranks
 ///
 /// For reading and for tests, not for every step: all ids travel once.
 ///
-/// @param owned  ids of the owned particles of this rank, no ghosts, in any order
+/// @param owned  ids of the owned particles of this rank, no ghosts, in any order: a vector, a span, an array
 /// @throws on all ranks, or on none: input_error if one rank passes a negative id; limit_error if one is out of memory
 ///         (that rank itself: std::bad_alloc); what the transport throws.
 /// Complexity:  O(n log n) with n = N_total / P; 8 bytes sent and 24 held per owned id.
 /// Collective:  yes; Id must be the same on all ranks. A message of about 8 n / P bytes to each rank, one to each that
-///              is told, four reductions. The result does not depend on the order in which messages arrive.
+///              is told, five reductions. The result does not depend on the order in which messages arrive.
 /// Source:      A13.
-template <particle_id Id, transport Transport>
-[[nodiscard]] duplicate_report<Id> duplicate_ids(Transport& on, std::span<const Id> owned) {
+template <transport Transport, detail::id_list Ids>
+[[nodiscard]] duplicate_report<detail::element_of<Ids>> duplicate_ids(Transport& on, const Ids& owned) {
+    using Id = detail::element_of<Ids>;
     constexpr auto where = "duplicate_ids";
     detail::home_calls calls;
     detail::duplicates_at_home found;
     detail::agreed_exchange(
         on, where,
         [&](std::vector<parcel>& parcels) {
-            const auto ids = detail::at_most_twice(owned);
-            calls = detail::home_calls(std::span<const Id>(ids), on.ranks(), [&](std::size_t k) {
-                return static_cast<rank_t>(splitmix64(static_cast<std::uint64_t>(ids[k])) % on.ranks());
-            });
+            const auto ids = detail::at_most_twice(detail::span_of(owned));
+            calls = detail::home_calls(std::span<const Id>(ids), on.ranks(),
+                                       [&](Id t) { return detail::home_of(t, on.ranks()); });
             calls.add_parcels(parcels);
         },
         [&](const mailbox& came) { found = detail::duplicates_at_home(came); });

@@ -5,10 +5,10 @@
 
 #include <tsubu/comm/detail/agreed_exchange.hpp>
 #include <tsubu/comm/detail/home_calls.hpp>
+#include <tsubu/comm/detail/id_list.hpp>
 #include <tsubu/comm/mailbox.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
-#include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/id/adaptive_storage.hpp>
 #include <tsubu/id/id_map.hpp>
@@ -51,13 +51,8 @@ public:
         detail::agreed_exchange(
             on, "id_directory::rebuild",
             [&](std::vector<parcel>& parcels) {
-                for (std::size_t i = 0; i < owned.size(); ++i)
-                    if (detail::is_negative(owned[i]))
-                        detail::raise<input_error>("id_directory::rebuild",
-                                                   "the id at index " + std::to_string(i) + " is " +
-                                                       std::to_string(owned[i]),
-                                                   "ids of particles are 0 or greater");
-                calls = detail::home_calls(owned, on.ranks(), home_of(owned, on.ranks()));
+                detail::check_ids("id_directory::rebuild", owned);
+                calls = calls_for(owned, on.ranks());
                 calls.add_parcels(parcels);
             },
             [&](const mailbox& came) {
@@ -79,13 +74,13 @@ public:
     /// Collective: yes, each rank with questions of its own; 8 bytes per id there and back, four reductions.
     template <transport Transport>
     [[nodiscard]] std::vector<rank_t> find(Transport& on, std::span<const Id> ids) const {
-        std::vector<std::uint64_t> found;
+        std::vector<rank_t> owners;
         detail::home_calls calls;
         detail::home_answers answers;
         detail::agreed_exchange(
             on, "id_directory::find",
             [&](std::vector<parcel>& parcels) {
-                calls = detail::home_calls(ids, on.ranks(), home_of(ids, on.ranks()));
+                calls = calls_for(ids, on.ranks());
                 calls.add_parcels(parcels);
             },
             [&](const mailbox& asked) {
@@ -96,19 +91,19 @@ public:
             });
         detail::agreed_exchange(
             on, "id_directory::find", [&](std::vector<parcel>& parcels) { answers.add_parcels(parcels); },
-            [&](const mailbox& came) { found = calls.answers(came); });
-        std::vector<rank_t> owners(found.size());
-        for (std::size_t k = 0; k < owners.size(); ++k) owners[k] = static_cast<rank_t>(found[k]);
+            [&](const mailbox& came) {
+                const auto found = calls.answers(came);
+                owners.resize(found.size());
+                for (std::size_t k = 0; k < owners.size(); ++k) owners[k] = static_cast<rank_t>(found[k]);
+            });
         return owners;
     }
     /// Ids whose home this rank is.
     [[nodiscard]] std::size_t size() const noexcept { return ranks_.size(); }
 
 private:
-    [[nodiscard]] static auto home_of(std::span<const Id> ids, std::size_t ranks) {
-        return [ids, ranks](std::size_t k) {
-            return static_cast<rank_t>(splitmix64(static_cast<std::uint64_t>(ids[k])) % ranks);
-        };
+    [[nodiscard]] static detail::home_calls calls_for(std::span<const Id> ids, std::size_t ranks) {
+        return {ids, ranks, [ranks](Id t) { return detail::home_of(t, ranks); }};
     }
     [[noreturn]] static void refuse_duplicate(const std::vector<std::uint64_t>& ids, const std::vector<rank_t>& ranks,
                                               const map_type& where) {

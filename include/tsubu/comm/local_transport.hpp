@@ -10,17 +10,19 @@
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <algorithm>           // std::copy, std::max, std::min
+#include <algorithm>           // std::copy, std::copy_n, std::max, std::min
+#include <array>               // std::array
 #include <condition_variable>  // std::condition_variable
 #include <cstddef>             // std::size_t
 #include <cstdint>             // std::uint64_t
 #include <exception>           // std::exception_ptr
+#include <limits>              // std::numeric_limits
 #include <map>                 // std::map
 #include <mutex>               // std::mutex
 #include <span>                // std::span
 #include <string>              // std::to_string
 #include <thread>              // std::thread
-#include <tuple>               // std::apply, std::get, std::tuple
+#include <tuple>               // std::tuple
 #include <type_traits>         // std::is_same_v
 #include <utility>             // std::move
 #include <vector>              // std::vector
@@ -31,7 +33,7 @@ namespace detail {
 /// What the threads of a local_transport share: where they meet, and what they lay down for each other.
 class meeting_place {
 public:
-    explicit meeting_place(std::size_t ranks) : posts_(ranks) {}
+    explicit meeting_place(std::size_t ranks) : posts_(ranks), how_left_(ranks, here) {}
     [[nodiscard]] std::size_t ranks() const noexcept { return posts_.size(); }
 
     /// What a rank shows the others between two meetings.
@@ -42,19 +44,19 @@ public:
     };
     [[nodiscard]] post& at(std::size_t rank) noexcept { return posts_[rank]; }
 
-    /// Waits until all ranks are here. @throws lost_rank_error if one has ended.
+    /// Waits until all ranks are here. @throws lost_rank_error if one has ended, and so never comes.
     void meet() {
         std::unique_lock lock(mutex_);
-        refuse_if_broken();
-        if (++here_ == ranks()) {
-            here_ = 0;
+        if (lost_ != nobody) refuse(lost_);
+        if (++waiting_ == ranks()) {
+            waiting_ = 0;
             ++meetings_;
             changed_.notify_all();
             return;
         }
         const auto now = meetings_;
-        changed_.wait(lock, [&] { return meetings_ != now || is_broken_; });
-        if (meetings_ == now) refuse_if_broken();
+        changed_.wait(lock, [&] { return meetings_ != now || lost_ != nobody; });
+        if (meetings_ == now) refuse(lost_);
     }
     void put(rank_t from, rank_t to, int tag, std::vector<std::uint64_t> words) {
         const std::lock_guard lock(mutex_);
@@ -68,17 +70,20 @@ public:
         const std::lock_guard lock(mutex_);
         return ways_[{from, to, tag}].asked++;
     }
+    /// What was put before its sender ended is still there to be taken. @throws lost_rank_error if it never comes.
     [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag, std::uint64_t which) {
         std::unique_lock lock(mutex_);
         auto& messages = ways_[{from, to, tag}].messages;
-        changed_.wait(lock, [&] { return messages.count(which) != 0 || is_broken_; });
-        refuse_if_broken();
+        changed_.wait(lock, [&] { return messages.count(which) != 0 || how_left_[from] != here; });
+        if (messages.count(which) == 0) refuse(from);
         return std::move(messages.extract(which).mapped());
     }
+    enum presence : char { here, returned, thrown };
     /// A rank has ended: nobody is to wait for it.
-    void leave() noexcept {
+    void leave(std::size_t rank, presence how) noexcept {
         const std::lock_guard lock(mutex_);
-        is_broken_ = true;
+        how_left_[rank] = how;
+        if (lost_ == nobody) lost_ = rank;
         changed_.notify_all();
     }
 
@@ -89,18 +94,23 @@ private:
         std::uint64_t asked = 0;
     };
 
-    void refuse_if_broken() const {
-        if (is_broken_)
-            throw lost_rank_error("tsubu::local_transport: another rank has ended by an exception; see that one");
+    static constexpr auto nobody = (std::numeric_limits<std::size_t>::max)();
+    [[noreturn]] void refuse(std::size_t rank) const {
+        const auto who = "rank " + std::to_string(rank);
+        if (how_left_[rank] == thrown)
+            raise<lost_rank_error>("local_transport", who + " has ended by an exception", "see that one");
+        raise<lost_rank_error>("local_transport", who + " has returned, and is waited for",
+                               "call the same functions on all ranks");
     }
 
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<post> posts_;
     std::map<std::tuple<rank_t, rank_t, int>, way> ways_;
-    std::size_t here_ = 0;
+    std::vector<presence> how_left_;
+    std::size_t lost_ = nobody;  // the first that has ended
+    std::size_t waiting_ = 0;
     std::uint64_t meetings_ = 0;
-    bool is_broken_ = false;
 };
 
 }  // namespace detail
@@ -108,14 +118,16 @@ private:
 /// One of several ranks of a process, each in a thread: made by run_ranks.
 ///
 /// Concept:      transport.
-/// Cost:         two meetings of all threads per collective; O(ranks) per rank for an exchange.
+/// Cost:         two meetings of all threads per collective, one more for each 64 numbers after the first ones;
+///               O(ranks) per rank for an exchange.
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:
-    local_transport(detail::meeting_place& place, rank_t rank) : place_(&place), rank_(rank) {
-        // What few numbers need is there: where memory is short, ranks can still tell each other.
-        std::apply([](auto&... found) { (found.reserve(64), ...); }, found_);
-    }
+    local_transport(detail::meeting_place& place, rank_t rank) noexcept : place_(&place), rank_(rank) {}
+
+    // Two of one rank would count its tags apart.
+    local_transport(const local_transport&) = delete;
+    local_transport& operator=(const local_transport&) = delete;
 
     [[nodiscard]] rank_t rank() const noexcept { return rank_; }
     [[nodiscard]] std::size_t ranks() const noexcept { return place_->ranks(); }
@@ -125,33 +137,27 @@ public:
     [[nodiscard]] mailbox exchange(std::span<const parcel> parcels, std::span<std::uint64_t> sums) {
         for (const auto& one : parcels) detail::check_parcel("local_transport::exchange", one, ranks());
         mailbox came(memory_);
-        together({parcels, sums, {}}, [&](auto& found) {
-            reduce_into(found, sums.size(), reduction::sum);
+        together({parcels, sums, {}}, sums, reduction::sum, [&] {
             for (std::size_t from = 0; from < ranks(); ++from)
                 for (const auto& one : place_->at(from).parcels)
                     if (one.rank == rank_) came.add(parcel{static_cast<rank_t>(from), one.words});
-        }, sums);
+        });
         return came;
     }
     void reduce(std::span<std::uint64_t> numbers, reduction how) {
-        together({{}, numbers, {}}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
+        together({{}, numbers, {}}, numbers, how, [] {});
     }
     void reduce(std::span<double> numbers, reduction how) {
-        together({{}, {}, numbers}, [&](auto& found) { reduce_into(found, numbers.size(), how); }, numbers);
+        together({{}, {}, numbers}, numbers, how, [] {});
     }
     [[nodiscard]] mailbox gather(std::span<const std::uint64_t> words) {
         mailbox came(memory_);
-        together({{}, words, {}}, [&](auto&) {
-            for (std::size_t from = 0; from < ranks(); ++from)
-                came.add(parcel{static_cast<rank_t>(from), place_->at(from).words});
-        }, std::span<std::uint64_t>());
+        look_at({rank_, words}, [&](const parcel& theirs) { came.add(theirs); });
         return came;
     }
     [[nodiscard]] std::uint64_t sum_before(std::uint64_t n) {
         std::uint64_t sum = 0;
-        together({{}, {&n, 1}, {}}, [&](auto&) {
-            for (std::size_t from = 0; from < rank_; ++from) sum += place_->at(from).words[0];
-        }, std::span<std::uint64_t>());
+        look_at({rank_, {&n, 1}}, [&](const parcel& theirs) { sum += theirs.rank < rank_ ? theirs.words[0] : 0; });
         return sum;
     }
     [[nodiscard]] int next_tag() noexcept { return tag_++; }
@@ -206,56 +212,75 @@ public:
     };
 
 private:
-    // Shows what this rank has, meets, looks at what the others show, meets again; then the answer may take the place
-    // of what was shown.
-    template <class Look, class Number>
-    void together(detail::meeting_place::post mine, Look&& look, std::span<Number> answer) {
+    // Shows what this rank has, meets, looks at what the others show, and meets again. Then each number that was shown
+    // becomes that of all ranks, some at a time: that asks for no memory, so that ranks can tell each other that they
+    // have none.
+    template <class Number, class Look>
+    void together(const detail::meeting_place::post& mine, std::span<Number> numbers, reduction how, Look&& look) {
         place_->at(rank_) = mine;
         place_->meet();
-        auto& found = std::get<std::vector<Number>>(found_);
-        found.clear();
+        bool is_same = true;  // if not, all ranks see it
+        for (std::size_t from = 0; from < ranks(); ++from)
+            is_same = is_same && shown<Number>(from).size() == numbers.size();
         std::exception_ptr thrown;
         try {
-            look(found);
+            if (!is_same) refuse_counts<Number>(numbers.size());
+            look();
         } catch (...) {  // kept: the others still look at what this rank shows
             thrown = std::current_exception();
         }
-        place_->meet();
-        if (found.size() == answer.size()) std::copy(found.begin(), found.end(), answer.begin());
+        std::array<Number, 64> found{};
+        const auto total = is_same ? numbers.size() : 0;
+        std::size_t done = 0;
+        do {
+            const auto count = (std::min)(found.size(), total - done);
+            for (std::size_t k = 0; k < count; ++k) found[k] = reduced<Number>(done + k, how);
+            place_->meet();
+            std::copy_n(found.begin(), count, numbers.subspan(done).begin());
+            done += count;
+        } while (done < total);
         if (thrown) std::rethrow_exception(thrown);
     }
+    // At what each rank shows.
+    template <class Look>
+    void look_at(const parcel& mine, Look&& look) {
+        together({{&mine, 1}, {}, {}}, std::span<std::uint64_t>(), reduction::sum, [&] {
+            for (std::size_t from = 0; from < ranks(); ++from)
+                for (const auto& one : place_->at(from).parcels) look(one);
+        });
+    }
     template <class Number>
-    void reduce_into(std::vector<Number>& all, std::size_t count, reduction how) const {
-        for (std::size_t from = 0; from < ranks(); ++from) {
-            const auto& shown = place_->at(from);
-            const auto theirs = [&] {
-                if constexpr (std::is_same_v<Number, double>)
-                    return shown.numbers;
-                else
-                    return shown.words;
-            }();
-            if (theirs.size() != count)
-                detail::raise<input_error>("local_transport",
-                                           "rank " + std::to_string(from) + " reduces " +
-                                               std::to_string(theirs.size()) + " numbers, this one " +
-                                               std::to_string(count),
-                                           "call the same functions on all ranks");
-            if (all.empty()) {
-                all.assign(theirs.begin(), theirs.end());
-                continue;
-            }
-            for (std::size_t k = 0; k < count; ++k)
-                all[k] = how == reduction::sum     ? all[k] + theirs[k]
-                         : how == reduction::least ? (std::min)(all[k], theirs[k])
-                                                   : (std::max)(all[k], theirs[k]);
+    [[nodiscard]] std::span<const Number> shown(std::size_t from) const noexcept {
+        if constexpr (std::is_same_v<Number, double>)
+            return place_->at(from).numbers;
+        else
+            return place_->at(from).words;
+    }
+    template <class Number>
+    [[nodiscard]] Number reduced(std::size_t k, reduction how) const noexcept {
+        auto result = shown<Number>(0)[k];
+        for (std::size_t from = 1; from < ranks(); ++from) {
+            const auto other = shown<Number>(from)[k];
+            result = how == reduction::sum     ? result + other
+                     : how == reduction::least ? (std::min)(result, other)
+                                               : (std::max)(result, other);
         }
+        return result;
+    }
+    template <class Number>
+    void refuse_counts(std::size_t count) const {
+        for (std::size_t from = 0; from < ranks(); ++from)
+            if (const auto theirs = shown<Number>(from).size(); theirs != count)
+                detail::raise<input_error>("local_transport",
+                                           "rank " + std::to_string(from) + " reduces " + std::to_string(theirs) +
+                                               " numbers, this one " + std::to_string(count),
+                                           "call the same functions on all ranks");
     }
 
     detail::meeting_place* place_;
     rank_t rank_;
     int tag_ = 0;
     message_memory memory_;
-    std::tuple<std::vector<std::uint64_t>, std::vector<double>> found_;  // by the last reduction
 };
 static_assert(transport<local_transport>);
 
@@ -263,27 +288,39 @@ static_assert(transport<local_transport>);
 ///
 ///     tsubu::run_ranks(4, [](tsubu::local_transport& on) { ... });
 ///
-/// @throws what the lowest rank threw that did not merely wait for another one; all threads have ended then.
+/// A rank that waits for one that has returned gets a lost_rank_error, as it does for one that has thrown.
+///
+/// @throws what the lowest rank threw that did not merely wait for another one; std::system_error or std::bad_alloc if
+///         a thread cannot be started; all threads have ended then.
 template <class Body>
 void run_ranks(std::size_t ranks, Body&& body) {
-    detail::meeting_place place(ranks);
+    using detail::meeting_place;
+    meeting_place place(ranks);
     std::vector<std::exception_ptr> thrown(ranks);
     std::vector<char> has_waited(ranks, 0);  // not vector<bool>, whose bits threads would share
+    const auto run = [&](std::size_t rank) noexcept {
+        try {
+            local_transport on(place, static_cast<rank_t>(rank));
+            body(on);
+        } catch (const lost_rank_error&) {
+            thrown[rank] = std::current_exception();
+            has_waited[rank] = 1;
+        } catch (...) {
+            thrown[rank] = std::current_exception();
+        }
+        place.leave(rank, thrown[rank] ? meeting_place::thrown : meeting_place::returned);
+    };
+    std::exception_ptr not_started;
     std::vector<std::thread> threads;
-    for (std::size_t rank = 0; rank < ranks; ++rank)
-        threads.emplace_back([&, rank] {
-            try {
-                local_transport on(place, static_cast<rank_t>(rank));
-                body(on);
-            } catch (const lost_rank_error&) {
-                thrown[rank] = std::current_exception();
-                has_waited[rank] = 1;
-            } catch (...) {
-                thrown[rank] = std::current_exception();
-            }
-            if (thrown[rank]) place.leave();
-        });
+    try {
+        threads.reserve(ranks);
+        for (std::size_t rank = 0; rank < ranks; ++rank) threads.emplace_back(run, rank);
+    } catch (...) {  // kept: those that have started are to end first
+        not_started = std::current_exception();
+        for (auto rank = threads.size(); rank < ranks; ++rank) place.leave(rank, meeting_place::thrown);
+    }
     for (auto& one : threads) one.join();
+    if (not_started) std::rethrow_exception(not_started);
     for (const bool waited : {false, true})
         for (std::size_t rank = 0; rank < ranks; ++rank)
             if (thrown[rank] && (has_waited[rank] != 0) == waited) std::rethrow_exception(thrown[rank]);

@@ -6,6 +6,7 @@
 #include <tsubu/store/standard_fields.hpp>
 
 #include "comm_laws/on_ranks.hpp"
+#include "comm_laws/refused_memory.hpp"
 #include "unit/io/scratch_folder.hpp"
 #include "unit/thrown.hpp"
 
@@ -122,4 +123,75 @@ TEST_CASE("a restart that fails on one rank fails on all, and leaves the old fil
              "a damaged file");
         seen(g.owned_count() == 1 && g[tsubu::id][0] == 9, "the store is as before");
     });
+}
+
+TEST_CASE("a restart whose particles are not all in the box leaves the store as it was", "[comm][restart]") {
+    const scratch_folder folder;
+    const auto path = folder / "run.restart";
+    const tsubu::domain<3> open_box{{0, 0, 0}, {1, 2, 3}};
+    comm_laws::check_on_ranks(3, [&](auto& on, verdict& seen) {
+        const tsubu::brick_decomposition<3> bricks(open_box, 3);
+        store g;
+        g.push_back(tsubu::id = std::int64_t{on.rank()}, tsubu::position<3> = {0.5, 1, on.rank() == 1 ? 7.0 : 1.5});
+        tsubu::write_restart(on, path, g, carried{});
+        g.clear();
+        tsubu::migrate(g, bricks, on);
+        const auto owner = bricks.owner({0.5, 1, 0.5});
+        if (on.rank() == owner) g.push_back(tsubu::id = 99, tsubu::position<3> = {0.5, 1, 0.5});
+        seen(thrown<tsubu::error>([&] { tsubu::read_restart(on, path, g, carried{}, bricks); }) != "nothing was thrown",
+             "a particle outside is refused");
+        seen(g.owned_count() == (on.rank() == owner ? 1U : 0U) && (g.empty() || g[tsubu::id][0] == 99),
+             "the store is as before");
+        const tsubu::brick_decomposition<3> for_two(open_box, 2);
+        const auto text = thrown<tsubu::input_error>(
+            [&] { tsubu::read_restart(on, folder / "no.restart", g, carried{}, for_two); });
+        seen(says(text, "a decomposition for 2 ranks on 3"), "the decomposition is looked at before the file");
+    });
+}
+
+TEST_CASE("ranks that disagree about the state write nothing", "[comm][restart]") {
+    const scratch_folder folder;
+    const auto path = folder / "run.restart";
+    comm_laws::check_on_ranks(3, [&](auto& on, verdict& seen) {
+        store g;
+        const auto refused = [&](const tsubu::restart_state& state) {
+            const auto text = thrown<tsubu::input_error>([&] { tsubu::write_restart(on, path, g, carried{}, state); });
+            return says(text, "the state on rank 2 is not that on rank 0");
+        };
+        const bool is_other = on.rank() == 2;
+        seen(refused({.step = is_other ? 8 : 7, .box = {}, .words = {}}), "the step");
+        seen(refused({.step = 7, .box = is_other ? tsubu::restart_box(box) : tsubu::restart_box{}, .words = {}}),
+             "the box");
+        seen(refused({.step = 7, .box = {}, .words = std::vector<std::uint64_t>(is_other ? 1 : 0)}), "the words");
+    });
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("a restart on a rank without memory is known to all ranks", "[comm][restart][T7]") {
+    const scratch_folder folder;
+    const auto path = folder / "run.restart";
+    const auto particle_of = [](tsubu::rank_t rank) {
+        store g;
+        const auto i = static_cast<std::size_t>(g.push_back(tsubu::id = std::int64_t{rank}));
+        g[contacts][i].push_back({1, 0.5});
+        return g;
+    };
+    const tsubu::restart_state written{.step = 7, .box = {}, .words = {1}};
+    bool is_as_before = true;
+    CHECK(comm_laws::refusals_until_done([&](tsubu::local_transport& on, auto&& limited) {
+              const auto g = particle_of(on.rank());
+              on.memory().clear();
+              limited([&] { tsubu::write_restart(on, path, g, carried{}, written); });
+          }) > 10);
+    CHECK(folder.files() == 1);
+    CHECK(comm_laws::refusals_until_done([&](tsubu::local_transport& on, auto&& limited) {
+              const tsubu::brick_decomposition<3> bricks(box, 3);
+              auto g = particle_of(on.rank() + 10);
+              for (auto& x : g.owned()[tsubu::position<3>]) x = bricks.subdomain(on.rank()).lo();
+              tsubu::restart_state state;
+              on.memory().clear();
+              limited([&] { state = tsubu::read_restart(on, path, g, carried{}, bricks); });
+              if (on.rank() == 1 && state.step != 7) is_as_before = is_as_before && g.owned_count() == 1;
+          }) > 10);
+    CHECK(is_as_before);
 }

@@ -3,29 +3,33 @@
 /// Questions about ids, each to the rank that is its home, and the answers.
 #pragma once
 
-#include <tsubu/comm/detail/agreed_exchange.hpp>
 #include <tsubu/comm/mailbox.hpp>
-#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/random.hpp>
 #include <tsubu/core/types.hpp>
 
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
 #include <span>     // std::span
-#include <utility>  // std::forward
 #include <vector>   // std::vector
 
 namespace tsubu::detail {
+
+/// The rank that knows of an id: about as many ids for each, whatever they look like.
+template <particle_id Id>
+[[nodiscard]] constexpr rank_t home_of(Id t, std::size_t ranks) noexcept {
+    return static_cast<rank_t>(splitmix64(static_cast<std::uint64_t>(t)) % ranks);
+}
 
 /// Ids of this rank, grouped by their homes.
 class home_calls {
 public:
     home_calls() = default;
-    /// @param home  home(k) is the rank that id k goes to
+    /// @param home  home(t) is the rank that id t goes to
     template <particle_id Id, class Home>
     home_calls(std::span<const Id> ids, std::size_t ranks, Home&& home) : words_(ids.size()), place_(ids.size()) {
         std::vector<rank_t> homes(ids.size());
         begins_.assign(ranks + 1, 0);
-        for (std::size_t k = 0; k < ids.size(); ++k) ++begins_[(homes[k] = home(k)) + 1];
+        for (std::size_t k = 0; k < ids.size(); ++k) ++begins_[(homes[k] = home(ids[k])) + 1];
         for (std::size_t r = 0; r < ranks; ++r) begins_[r + 1] += begins_[r];
         auto next = begins_;
         for (std::size_t k = 0; k < ids.size(); ++k) {

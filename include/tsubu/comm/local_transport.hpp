@@ -73,10 +73,14 @@ public:
     /// What was put before its sender ended is still there to be taken. @throws lost_rank_error if it never comes.
     [[nodiscard]] std::vector<std::uint64_t> take(rank_t from, rank_t to, int tag, std::uint64_t which) {
         std::unique_lock lock(mutex_);
-        auto& messages = ways_[{from, to, tag}].messages;
+        const auto found = ways_.find({from, to, tag});  // there since ask
+        auto& messages = found->second.messages;
         changed_.wait(lock, [&] { return messages.count(which) != 0 || how_left_[from] != here; });
         if (messages.count(which) == 0) refuse(from);
-        return std::move(messages.extract(which).mapped());
+        auto words = std::move(messages.extract(which).mapped());
+        // Halos come and go, each with tags of its own: nothing is kept of those that are through.
+        if (messages.empty() && found->second.sent == found->second.asked) ways_.erase(found);
+        return words;
     }
     enum presence : char { here, returned, thrown };
     /// A rank has ended: nobody is to wait for it.

@@ -31,7 +31,7 @@ struct lane {
     std::size_t words;
 };
 
-/// Thrown on a rank that waits for one that has ended by an exception.
+/// Thrown on a rank that waits for one that has returned, or ended by an exception.
 class lost_rank_error : public error {
 public:
     using error::error;
@@ -44,7 +44,8 @@ public:
 ///     that over all ranks, modulo 2^64; so they do if it throws on a rank, std::bad_alloc where there is no room
 ///     for what goes or came. Cost: the messages that are sent, and one reduction;
 ///  2. reduce(numbers, how) makes each number the sum, the least or the greatest over all ranks, the same on all;
-///  3. gather(words) has one parcel from each rank, in their order;
+///  3. gather(words) has one parcel from each rank, in their order. Where there is no room for them it throws
+///     std::bad_alloc when it is over, and may throw limit_error on the others then;
 ///  4. sum_before(n) is the sum over the ranks below this one;
 ///  5. channel(on, tag, out, in) brings words(out) of this rank to the others with every start(), and has theirs in
 ///     words(in) after finish(). Both are laid out lane by lane; the words that go out are left alone in between, and

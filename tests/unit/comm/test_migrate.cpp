@@ -128,7 +128,7 @@ TEST_CASE("a clamp that comes to nothing because another rank fails is undone", 
 TEST_CASE("what is too far out for a wrap is collected as it is", "[comm][migrate]") {
     tsubu::self_transport on;
     const auto tilted = tilted_box_of<3>(1.7, 3);
-    const tsubu::cell_decomposition bricks(tilted, 1);
+    const auto bricks = comm_laws::bricks_of(tilted, 1);
     using store_type = tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>>>;
     store_type g;
     store_type outside;

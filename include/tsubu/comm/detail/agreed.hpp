@@ -41,6 +41,8 @@ void agreed_gather(Transport& on, const char* where, std::span<const std::uint64
         came = on.gather(words);
     } catch (const std::bad_alloc&) {  // of what came; the gather is over
         all.attempt([] { throw; });
+    } catch (const limit_error&) {  // on all ranks: together they have too much, or one has no room
+        all.attempt([] { throw; });
     }
     all.attempt([&] { std::forward<Take>(take)(came); });
     on.reduce(all.words(), reduction::sum);

@@ -29,6 +29,7 @@ void drop_rows(Store& store, std::size_t down_to) noexcept {
 template <class Into, class From>
 void append_rows(Into& into, const From& from, std::span<const index_t> chosen) {
     using set = intersection_of<typename Into::fields_type, typename From::fields_type>;
+    static_assert(set::count != 0, "the stores have no field in common: nothing would be left of the particles");
     std::vector<std::uint64_t> words(packed_words(from, set{}, chosen));
     pack(from, set{}, chosen, words);
     const auto before = into.owned_count();

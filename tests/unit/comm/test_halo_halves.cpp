@@ -176,6 +176,9 @@ TEST_CASE("a halo knows that its particles have gone, even where the numbers are
         // No ghosts before or after, and nobody leaves: the same numbers.
         auto none = tsubu::make_halo(g, bricks, 0, on);
         right = right && g.ghost_count() == 0;
+        auto turned = g;
+        turned.permute(order);
+        right = right && refuses("come, gone or been permuted", [&] { none.forward(turned, v); });
         tsubu::migrate(g, bricks, on);
         return right && refuses("come, gone or been permuted", [&] { none.forward(g, v); });
     });

@@ -233,7 +233,9 @@ def migrate_chart(results, pyplot):
                       yerr=[[max(0, t - t.low) for _, t in points], [max(0, t.high - t) for _, t in points]],
                       color=colour, linestyle=line, marker="o", markersize=4, linewidth=1.6, label=label)
         for p, t in points:
-            axes.annotate(figure_of(t), (percents.index(p), t), xytext=(0, -13 if name == "tsubu" else 6),
+            others = [o for s, *_ in SERIES if s != name and (o := results.time("migrate", p, s))]
+            is_highest = all(t >= o for o in others)
+            axes.annotate(figure_of(t), (percents.index(p), t), xytext=(0, 6 if is_highest else -13), color=colour,
                           textcoords="offset points", ha="center", fontsize=8)
     axes.set_yscale("log")
     low, high = axes.get_ylim()

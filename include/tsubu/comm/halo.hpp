@@ -40,8 +40,9 @@ namespace tsubu {
 /// Ghosts follow the owned particles of the store, by step of the pattern and by rank of the sender. Positions arrive
 /// moved, and vectors turned, into the image.
 ///
-/// A halo holds while no particle comes, goes or changes places; after migrate and permute a new one is made. It refers
-/// to the transport, which must outlive it.
+/// A halo holds while no particle comes, goes or changes places; after migrate and permute a new one is made. For
+/// several steps with one halo, its cutoff is the range of the forces and a skin that no two particles cross together.
+/// A pair over a border is seen from both sides. It refers to the transport, which must outlive it.
 ///
 /// Collective:  forward and reverse, with the same fields on all ranks: one message in each step of the pattern to each
 ///              rank that has ghosts of this one, and from each of which this has some; nothing else, and no memory is
@@ -54,6 +55,9 @@ class halo {
 
 public:
     using shift_type = image_shift<Parts::dimension>;
+
+    /// Of no particles: something for make_halo to be assigned to.
+    halo() = default;
 
     [[nodiscard]] std::size_t owned_count() const noexcept { return owned_; }
     [[nodiscard]] std::size_t ghost_count() const noexcept { return shifts_.size(); }
@@ -107,8 +111,9 @@ public:
     }
 
     /// What ghosts hold of these fields is added to their owners: as each field says, by sum, least or greatest. In the
-    /// order of steps, ranks and shifts: the same on every run. What ghosts hold afterwards is theirs with one step,
-    /// and unspecified with several, where ghosts pass on what others have added to them.
+    /// order of steps, ranks and shifts: the same on every run. A sum begins with what is there: clear the field of all
+    /// particles first, ghosts too, `for (auto& f : g[tsubu::force<3>]) f = {};`. What ghosts hold afterwards is theirs
+    /// with one step, and unspecified with several, where ghosts pass on what others have added to them.
     /// @throws as forward.
     template <class Store, particle_field... Field>
     void reverse(Store& store, Field... which) {
@@ -139,8 +144,6 @@ private:
         requires halo_pattern<Pattern, P>
     friend halo<P, T> make_halo(Store& store, const P& parts, typename P::real_type cutoff, T& on,
                                 const Pattern& pattern);
-
-    halo() = default;
 
     template <class Store, class... Field>
     void check(const Store& store, const char* where) const {

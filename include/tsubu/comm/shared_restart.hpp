@@ -102,7 +102,10 @@ void write_restart(Transport& on, const std::string& path, const Store& store, f
 ///     const auto state = tsubu::read_restart(on, "run.restart", grains, set, bricks);
 ///
 /// Each rank reads a share of the file, and sends what is not its own; no rank holds more than its share and what it
-/// owns.
+/// owns. The box may be another than that of the file; to go on in the same one:
+///
+///     const auto box = tsubu::restart_reader("run.restart").state().box.as<tsubu::domain<3>>();
+///
 /// @param set  fields of the file, the position among them
 /// @throws on all ranks or none: as restart_reader and migrate; the store holds then what it held, wrapped.
 /// Collective: yes; the same path, set and decomposition on all ranks. One reduction, and migrate.

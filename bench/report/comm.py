@@ -239,7 +239,7 @@ def migrate_chart(results, pyplot):
                           textcoords="offset points", ha="center", fontsize=8)
     axes.set_yscale("log")
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high * 1.6)
+    axes.set_ylim(low / 1.6, high * 1.6)
     few_ticks(axes.yaxis)
     axes.set_xticks(range(len(percents)), [f"{p} %" for p in percents])
     axes.set_xlim(-.35, len(percents) - .65)

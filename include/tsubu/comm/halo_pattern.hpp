@@ -22,7 +22,6 @@
 #include <cmath>      // std::abs
 #include <concepts>   // std::same_as
 #include <cstddef>    // std::size_t
-#include <cstdint>    // std::int64_t
 #include <limits>     // std::numeric_limits
 #include <utility>    // std::move
 #include <vector>     // std::vector

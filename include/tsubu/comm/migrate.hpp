@@ -28,7 +28,6 @@
 #include <span>       // std::span
 #include <string>     // std::string
 #include <type_traits>  // std::is_same_v
-#include <utility>    // std::pair
 #include <vector>     // std::vector
 
 namespace tsubu {

@@ -22,12 +22,10 @@
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint64_t
 #include <cstring>      // std::memcpy
-#include <limits>       // std::numeric_limits
 #include <memory>       // std::make_unique, std::unique_ptr
 #include <numeric>      // std::iota
 #include <span>         // std::span
 #include <type_traits>  // std::remove_cv_t
-#include <utility>      // std::move
 #include <vector>       // std::vector
 
 namespace tsubu::detail {

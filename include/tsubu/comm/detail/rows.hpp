@@ -9,7 +9,6 @@
 
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
-#include <new>      // std::bad_alloc
 #include <span>     // std::span
 #include <vector>   // std::vector
 
@@ -18,12 +17,7 @@ namespace tsubu::detail {
 /// Takes away the last owned particles again. Precondition: there are no ghosts, if there are any to be taken away.
 template <class Store>
 void drop_rows(Store& store, std::size_t down_to) noexcept {
-    while (store.owned_count() > down_to) {
-        try {
-            store.swap_remove(store.owned_count() - 1);
-        } catch (const std::bad_alloc&) {  // of the compaction of lists, after the particle went
-        }
-    }
+    while (store.owned_count() > down_to) store.swap_remove(store.owned_count() - 1);
 }
 /// Adds these particles of another store, with the fields that both have. Strong guarantee.
 template <class Into, class From>

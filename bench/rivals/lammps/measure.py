@@ -103,7 +103,7 @@ def main():
             settings["file"] = os.path.join(folder, "all.data")
             write_particles(arguments.scene, cells, settings["file"])
         if arguments.save:
-            settings["save"] = os.path.abspath(arguments.save)
+            settings.update(saving="yes", save=os.path.abspath(arguments.save))
         text, resident = run(arguments.scene, arguments.ranks, settings)
 
     # Four runs: warm-up, timed, one that prints the memory, and one that counts contacts. The timed one prints no memory.

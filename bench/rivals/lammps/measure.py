@@ -8,8 +8,9 @@
     measure.py settle --restart bed.restart --steps 5000 the dense bed, from a file that --save wrote
     measure.py gas --set restitution 0.9 --steps 30000
 
-seconds is LAMMPS' own time of the steps alone, without reading and set-up. bytes_per_particle is the memory LAMMPS says it
-allocated; resident_bytes_per_particle is what the process grew by over a run of the same scene with eight particles.
+seconds is LAMMPS' own time of the steps alone, without reading and set-up. bytes_per_particle is the memory LAMMPS says
+it allocated, where small scenes pay for whole pages of its lists; resident_bytes_per_particle is what the program grew
+by over a run of the same scene with eight particles, reading included.
 builds counts the rebuilds of the neighbour list within the timed steps. coordination leaves walls out.
 Exits 3 if there is no lmp.
 """
@@ -45,11 +46,11 @@ def run(scene, ranks, settings):
         command = ["taskset", "-c", "0"] + command
     else:
         # Open MPI puts rank i on core i.
-        command = ["mpirun", "--allow-run-as-root", "--bind-to", "core", "--map-by", "core", "-np", str(ranks)] + command
+        command = ["mpirun", "--allow-run-as-root", "--bind-to", "core", "-np", str(ranks)] + command
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with tempfile.TemporaryFile() as out:
         child = subprocess.Popen(command, cwd=HERE, env=environment, stdout=out, stderr=subprocess.STDOUT)
-        # wait4 sees this child alone, not what earlier children used. Under mpirun that is the launcher, or its largest rank.
+        # wait4 sees this child alone, not earlier ones. Under mpirun it is the larger of launcher and rank.
         _, status, usage = os.wait4(child.pid, 0)
         out.seek(0)
         text = out.read().decode(errors="replace")
@@ -78,19 +79,21 @@ def tables(text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", choices=sorted(p.stem for p in HERE.glob("*.lmp") if p.stem not in ("begin", "end")))
-    parser.add_argument("--steps", type=int, required=True)
+    parser.add_argument("--steps", type=int, required=True, help="timed steps, at least one")
     parser.add_argument("--warmup", type=int, default=0, help="steps before the timed ones")
     parser.add_argument("--ranks", type=int, choices=(1, 2), default=1)
     parser.add_argument("--cells", type=int, nargs=3, metavar=("NX", "NY", "NZ"), help="particles along x, y and z")
     parser.add_argument("--restart", help="start from this file instead of the formula")
     parser.add_argument("--save", help="write a restart file at the end")
-    parser.add_argument("--set", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"), help="a variable of the scene")
+    parser.add_argument("--set", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"),
+                        help="a variable of the scene")
     arguments = parser.parse_args()
     if shutil.which("lmp") is None:
         print("There is no lmp on the PATH; Debian's package lammps has it.", file=sys.stderr)
         return 3
 
-    settings = {"steps": str(arguments.steps), "warmup": str(arguments.warmup), "every": str(max(arguments.steps, 1))}
+    steps = str(arguments.steps)
+    settings = {"steps": steps, "warmup": str(arguments.warmup), "every": steps}
     settings.update((name, value) for name, value in arguments.set)
     cells = tuple(arguments.cells or CELLS.get(arguments.scene, SETTLE_CELLS))
     with tempfile.TemporaryDirectory() as folder:
@@ -106,10 +109,10 @@ def main():
             settings.update(saving="yes", save=os.path.abspath(arguments.save))
         text, resident = run(arguments.scene, arguments.ranks, settings)
 
-    # Four runs: warm-up, timed, one that prints the memory, and one that counts contacts. The timed one prints no memory.
+    # Four runs: warm-up, timed, one that prints the memory, one that counts contacts. The timed one prints no memory.
     loops = re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", text, re.MULTILINE)
     seconds, ranks, steps, count = float(loops[1][0]), int(loops[1][1]), int(loops[1][2]), int(loops[1][3])
-    mebibytes = [float(m) for m in re.findall(r"^Per MPI rank memory allocation .* = \S+ \| (\S+) \|", text, re.MULTILINE)]
+    mebibytes = re.findall(r"^Per MPI rank memory allocation .* = \S+ \| (\S+) \|", text, re.MULTILINE)
     _, timed, _, contacts = tables(text)
     first, last, contacts = timed[0], timed[-1], contacts[0]
     print(json.dumps({
@@ -120,8 +123,8 @@ def main():
         "steps": steps,
         "seconds": seconds,
         "mparticle_steps_per_s": round(count * steps / seconds / 1e6, 3) if seconds > 0 else None,
-        "bytes_per_particle": round(mebibytes[1] * 1024 * 1024 * ranks / count, 1),
-        # One rank's growth times the ranks; the launcher hides it when it is the larger process.
+        "bytes_per_particle": round(float(mebibytes[1]) * 1024 * 1024 * ranks / count, 1),
+        # One rank's growth times the ranks.
         "resident_bytes_per_particle": round((resident - base) * ranks / count, 1),
         "builds": int(last["Nbuild"] - first["Nbuild"]),
         "dangerous_builds": int(last["Ndanger"] - first["Ndanger"]),

@@ -5,13 +5,13 @@
     particles.py settle 20 20 25 > settle.data
     particles.py gas 22 22 22 > gas.data
 
-Every coordinate and velocity is a function of the particle's id alone, so that another code starts from the same doubles:
+Every coordinate and velocity is a function of the particle's id, so that another code starts from the same doubles:
 
     id = 1 + ix + nx (iy + ny iz)
     u(c) = (splitmix64(12345 + 8 id + c) >> 11) 2^-53,    c = 0..2 position, 3..5 velocity
 
-    settle   centre (k + .5) 1.2 + .08 (2u - 1),  velocity .5 (2u - 1);        box 1.2 nx, 1.2 ny periodic, floor at z = 0
-    gas      centre (k + .5) a + .25 a (2u - 1),  velocity sqrt(3) (2u - 1);   periodic box a nx, a ny, a nz
+    settle   centre (k + .5) 1.2 + .08 (2u - 1),  velocity .5 (2u - 1);       box 1.2 nx, 1.2 ny periodic, floor z = 0
+    gas      centre (k + .5) a + .25 a (2u - 1),  velocity sqrt(3) (2u - 1);  box a nx, a ny, a nz periodic
 
 a = (pi / (6 phi))^(1/3) with phi = .05 is 2.188 d; the jitter leaves at least .09 d between two neighbours.
 A velocity component of the gas has variance 1, so its temperature starts at 1.

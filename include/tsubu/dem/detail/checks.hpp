@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What a scene refuses: parameters, particles, and what its guards see.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/dem/detail/columns.hpp>
+#include <tsubu/dem/measure.hpp>
+#include <tsubu/dem/stability.hpp>
+#include <tsubu/domain/interval.hpp>
+#include <tsubu/domain/lattice.hpp>
+#include <tsubu/store/standard_fields.hpp>
+
+#include <algorithm>  // std::min
+#include <cmath>    // std::abs, std::nextafter, std::sqrt
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::uint64_t
+#include <limits>   // std::numeric_limits
+#include <string>   // std::string, std::to_string
+#include <tuple>    // std::get
+#include <vector>   // std::vector
+
+namespace tsubu::dem::detail {
+
+template <class Model>
+void check_model(const Model& one) {
+    if constexpr (requires { one.check(); }) one.check();
+}
+/// The walls in the dimensions of the scene.
+template <class Scene>
+[[nodiscard]] std::vector<wall_plane<Scene::dimension>> walls_of(const typename Scene::models_type& models) {
+    std::vector<wall_plane<Scene::dimension>> result;
+    if constexpr (Scene::has_walls)
+        for (const auto& one : std::get<typename Scene::walls_type>(models).planes) {
+            wall_plane<Scene::dimension> wall;
+            for (std::size_t k = 0; k < Scene::dimension; ++k) {
+                wall.point[k] = one.point[k];
+                wall.normal[k] = one.normal[k];
+            }
+            result.push_back(wall);
+        }
+    return result;
+}
+template <class Scene>
+[[nodiscard]] std::size_t spring_kinds_of(const typename Scene::models_type& models) {
+    if constexpr (Scene::has_springs)
+        return std::get<typename Scene::springs_type>(models).kinds.size();
+    else
+        return 0;
+}
+
+/// @throws input_error at the first particle whose radius, mass, position or velocity is not what it may be.
+template <class Scene>
+void check_particles(const typename Scene::store_type& store, const typename Scene::bodies_type&) {
+    constexpr auto D = Scene::dimension;
+    using quantities = typename Scene::quantities_type;
+    const auto refuse = [&](std::size_t i, const std::string& what, const char* remedy) {
+        tsubu::detail::raise<input_error>("dem::run::start", "particle " + std::to_string(store[tsubu::id][i]) + " has " + what,
+                                          remedy);
+    };
+    for (std::size_t i = 0; i < store.owned_count(); ++i) {
+        if (store[tsubu::id][i] < 0) refuse(i, "a negative id", "ids of particles are 0 or greater");
+        if constexpr (!Scene::bodies_type::are_equal) {
+            const double r = store[tsubu::radius][i];
+            const double m = store[tsubu::mass][i];
+            if (!(r > 0) || !tsubu::detail::is_finite(r))
+                refuse(i, "a radius of " + tsubu::detail::shown(r) + " m", "give a finite length above 0");
+            if (!(m > 0))
+                refuse(i, "a mass of " + tsubu::detail::shown(m) + " kg",
+                       "give a mass above 0; an infinite one holds it fast");
+        }
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto v = store[quantities::velocity][i][k];
+            if (!tsubu::detail::is_finite(v))
+                refuse(i, "a velocity of " + tsubu::detail::shown(v) + " m/s on axis " + std::to_string(k),
+                       "give finite numbers");
+            if constexpr (!is_lattice<typename Scene::coordinate>) {
+                const auto x = store[quantities::position][i][k];
+                if (!tsubu::detail::is_finite(x))
+                    refuse(i, "a position of " + tsubu::detail::shown(x) + " m on axis " + std::to_string(k),
+                           "give finite numbers");
+            }
+        }
+    }
+}
+
+/// Looks at what guards watch.
+template <class Run>
+class watcher {
+    using scene = typename Run::scene;
+    static constexpr auto D = scene::dimension;
+
+public:
+    explicit watcher(Run& of) noexcept : of_(of) {}
+
+    /// What each rank can tell. @throws input_error
+    void check(std::uint64_t step) const {
+        const auto& guard = of_.how().guard;
+        if (guard.overlap) check_overlaps(step);
+        if (guard.time_step) check_time_step(step);
+        if (guard.coordinates) check_coordinates(step);
+    }
+    /// Collective. @throws input_error on all ranks
+    void check_energy(std::uint64_t step, bool& has_been_at_rest) const {
+        const double floor = of_.how().guard.energy_floor;
+        if (!(floor > 0)) return;
+        const double energy = kinetic_energy(of_);
+        if (has_been_at_rest && !(energy <= 10 * floor))
+            refuse(step, "a kinetic energy of " + tsubu::detail::shown(energy) + " J, after it was below the floor of " +
+                             tsubu::detail::shown(floor) + " J",
+                   "take a smaller time step, if nothing else has set the scene in motion");
+        has_been_at_rest = has_been_at_rest || energy <= floor;
+    }
+
+private:
+    [[noreturn]] static void refuse(std::uint64_t step, const std::string& what, const char* remedy) {
+        tsubu::detail::raise<input_error>("dem::run", "step " + std::to_string(step) + ": " + what, remedy);
+    }
+    [[nodiscard]] std::string named(index_t i) const {
+        return std::to_string(of_.particles()[tsubu::id][i]);
+    }
+    void check_overlaps(std::uint64_t step) const {
+        of_.each_contact([&](const touching_pair<D>& pair) {
+            const double smaller =
+                pair.is_wall ? of_.radius(pair.i) : (std::min)(of_.radius(pair.i), of_.radius(pair.j));
+            if (!(pair.at.overlap <= smaller))
+                refuse(step,
+                       "particle " + named(pair.i) + " overlaps " +
+                           (pair.is_wall ? "wall " + std::to_string(pair.j) : "particle " + named(pair.j)) + " by " +
+                           tsubu::detail::shown(pair.at.overlap) + " m, more than a radius of " +
+                           tsubu::detail::shown(smaller) + " m",
+                       "place them apart; or take a stiffer law, or a smaller time step");
+        });
+    }
+    void check_time_step(std::uint64_t step) const {
+        const double omega = greatest_frequency(of_);
+        if (!(of_.how().time_step * omega <= 2))
+            refuse(step,
+                   "a time step of " + tsubu::detail::shown(of_.how().time_step) +
+                       " s, and contacts that are stable up to " + tsubu::detail::shown(2 / omega) + " s",
+                   "take a smaller time step, or softer contacts; to see what happens, switch guards::time_step off");
+    }
+    // Of a scene at rest the speeds end in the noise of rounding: what touches something is left out.
+    void check_coordinates(std::uint64_t step) const {
+        const auto& particles = of_.particles();
+        std::vector<unsigned char> is_held(particles.size(), 0);
+        of_.each_contact([&](const touching_pair<D>& pair) {
+            is_held[static_cast<std::size_t>(pair.i)] = 1;
+            if (!pair.is_wall) is_held[static_cast<std::size_t>(pair.j)] = 1;
+        });
+        of_.each_spring([&](index_t i, index_t, const spring&) { is_held[static_cast<std::size_t>(i)] = 1; });
+        double fastest = 0;  // in units of the last place of its position, per step
+        double speed = 0;
+        bool is_free = false;
+        for (std::size_t i = 0; i < particles.owned_count(); ++i)
+            for (std::size_t k = 0; k < D; ++k) {
+                const double v = std::abs(static_cast<double>(particles[scene::quantities_type::velocity][i][k]));
+                const double in_units = v * of_.how().time_step / resolution(static_cast<index_t>(i), k);
+                if (in_units > fastest) {
+                    fastest = in_units;
+                    speed = v;
+                    is_free = is_held[i] == 0;
+                }
+            }
+        if (is_free && fastest < 0.5)
+            refuse(step,
+                   "frozen coordinates: at " + tsubu::detail::shown(speed) + " m/s a time step of " +
+                       tsubu::detail::shown(of_.how().time_step) +
+                       " s moves the fastest particle by less than half a unit in the last place of its position",
+                   "shift the origin to the particles, or take lattice<std::int64_t> or a longer time step");
+    }
+    /// The distance of neighbouring coordinates where a particle is [m].
+    [[nodiscard]] double resolution(index_t i, std::size_t k) const {
+        using coordinate = typename scene::coordinate;
+        if constexpr (is_lattice<coordinate>) {
+            return of_.box().along(k).length_of(1.0);
+        } else {
+            const auto x = std::abs(of_.particles()[scene::quantities_type::position][i][k]);
+            return static_cast<double>(std::nextafter(x, (std::numeric_limits<coordinate>::max)()) - x);
+        }
+    }
+
+    Run& of_;
+};
+
+}  // namespace tsubu::dem::detail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Where the fields of a scene lie in memory, for its kernels.
+#pragma once
+
+#include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/domain/lattice.hpp>
+#include <tsubu/store/standard_fields.hpp>
+
+#include <array>    // std::array
+#include <cstddef>  // std::size_t
+#include <limits>   // std::numeric_limits
+
+namespace tsubu::dem::detail {
+
+/// A wall in the dimensions of a scene.
+template <std::size_t D>
+struct wall_plane {
+    vec<D, double> point;
+    vec<D, double> normal;
+    [[nodiscard, gnu::always_inline]] double distance(const vec<D, double>& x) const noexcept {
+        double sum = 0;
+        for (std::size_t k = 0; k < D; ++k) sum += (x[k] - point[k]) * normal[k];
+        return sum;
+    }
+};
+
+/// The columns that a scene has, taken anew whenever particles have come or gone.
+template <class Scene>
+struct columns {
+    static constexpr auto D = Scene::dimension;
+    using quantities = typename Scene::quantities_type;
+    using coordinate = typename Scene::coordinate;
+    using real = typename Scene::real;
+    using position_type = vec<D, coordinate>;
+    using vector_type = vec<D, real>;
+    using spin_type = vec<D == 2 ? 1 : 3, real>;
+
+    position_type* x = nullptr;
+    vector_type* v = nullptr;
+    vector_type* f = nullptr;
+    spin_type* w = nullptr;  // angular velocity
+    spin_type* t = nullptr;  // torque
+    const double* radius = nullptr;
+    const double* mass = nullptr;
+    real radius_of_all{};
+    real mass_of_all{};
+    std::array<double, D> step{};  // of a lattice [m]
+    const typename Scene::box_type* box = nullptr;
+
+    columns() = default;
+    columns(typename Scene::store_type& store, const typename Scene::box_type& where,
+            const typename Scene::bodies_type& bodies)
+        : x(store[quantities::position].data()),
+          v(store[quantities::velocity].data()),
+          f(store[quantities::force].data()),
+          box(&where) {
+        if constexpr (Scene::turns) {
+            w = store[quantities::angular_velocity].data();
+            t = store[quantities::torque].data();
+        }
+        if constexpr (Scene::bodies_type::are_equal) {
+            radius_of_all = static_cast<real>(bodies.radius);
+            mass_of_all = static_cast<real>(bodies.mass);
+        } else {
+            radius = store[tsubu::radius].data();
+            mass = store[tsubu::mass].data();
+        }
+        if constexpr (is_lattice<coordinate>)
+            for (std::size_t k = 0; k < D; ++k) step[k] = where.along(k).length_of(1.0);
+    }
+
+    /// From b to a along axis k; on a lattice the shorter way round.
+    [[nodiscard, gnu::always_inline]] real apart(std::size_t k, const coordinate& a, const coordinate& b) const noexcept {
+        if constexpr (is_lattice<coordinate>)
+            return static_cast<real>(static_cast<double>(a - b) * step[k]);
+        else
+            return static_cast<real>(a - b);
+    }
+    [[nodiscard, gnu::always_inline]] vec<D, double> real_position(index_t i) const noexcept {
+        vec<D, double> at;
+        for (std::size_t k = 0; k < D; ++k) at[k] = static_cast<double>(box->along(k).to_real(x[i][k]));
+        return at;
+    }
+    [[nodiscard, gnu::always_inline]] real radius_at(index_t i) const noexcept {
+        if constexpr (Scene::bodies_type::are_equal)
+            return radius_of_all;
+        else
+            return static_cast<real>(radius[i]);
+    }
+    [[nodiscard, gnu::always_inline]] real mass_at(index_t i) const noexcept {
+        if constexpr (Scene::bodies_type::are_equal)
+            return mass_of_all;
+        else
+            return static_cast<real>(mass[i]);
+    }
+};
+
+}  // namespace tsubu::dem::detail

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What contacts remember, from one neighbour list to the next: by the ids of the partners.
+#pragma once
+
+#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/dem/detail/contact_kernel.hpp>
+#include <tsubu/dem/quantities.hpp>
+#include <tsubu/id/id_map.hpp>
+#include <tsubu/neighbor/pair_list.hpp>
+#include <tsubu/store/standard_fields.hpp>
+
+#include <algorithm>  // std::fill, std::lower_bound
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t, std::uint32_t
+#include <span>       // std::span
+#include <string>     // std::to_string
+#include <vector>     // std::vector
+
+namespace tsubu::dem::detail {
+
+// While a list of neighbours holds, springs lie beside it, a row for each pair. Before particles move to other places or
+// ranks, each particle takes the springs of its contacts with it, with the ids of the partners; afterwards the ids are
+// looked up, and the springs laid beside the new list:
+//
+//     pairs    (0, 4) (0, 7) (2, 4) ...        particle 0: [id of 4 | spring] [id of 7 | spring]
+//     springs    *      .      *               particle 4: [id of 0 | -spring] [id of 2 | -spring]
+//
+// Both particles of a contact keep it, each from its side, since either may go to another rank.
+
+/// The springs of the pairs of one list, and whether each pair touched.
+template <std::size_t Springs, class Real>
+struct spring_table {
+    buffer<touch_state> touches;        // [pairs]
+    buffer<vec<Springs, Real>> springs;  // [pairs]; of a pair that did not touch without meaning
+
+    explicit spring_table(std::size_t pairs = 0) : touches(pairs, {}), springs(pairs, {}) {
+        std::fill(touches.begin(), touches.end(), touch_state{0});
+    }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return touches.memory_bytes() + springs.memory_bytes(); }
+};
+
+/// Of a law that remembers nothing: nothing.
+template <class Scene, bool Remembers = Scene::remembers>
+class contact_memory {
+public:
+    void keep(typename Scene::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
+    void recall(typename Scene::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
+    void begin(std::size_t, std::size_t) {}
+    [[nodiscard]] touch_state* pair_touches() noexcept { return nullptr; }
+    [[nodiscard]] touch_state* wall_touches() noexcept { return nullptr; }
+    [[nodiscard]] vec<0, typename Scene::real>* pair_springs() noexcept { return nullptr; }
+    [[nodiscard]] vec<0, typename Scene::real>* wall_springs() noexcept { return nullptr; }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return 0; }
+};
+template <class Scene>
+class contact_memory<Scene, true> {
+    using real = typename Scene::real;
+    static constexpr auto springs = Scene::springs;
+    static constexpr auto contacts = Scene::quantities_type::template contacts<springs>;
+    using store_type = typename Scene::store_type;
+
+public:
+    [[nodiscard]] touch_state* pair_touches() noexcept { return pairs_.touches.data(); }
+    [[nodiscard]] touch_state* wall_touches() noexcept { return walls_.touches.data(); }
+    [[nodiscard]] vec<springs, real>* pair_springs() noexcept { return pairs_.springs.data(); }
+    [[nodiscard]] vec<springs, real>* wall_springs() noexcept { return walls_.springs.data(); }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return pairs_.memory_bytes() + walls_.memory_bytes(); }
+
+    /// Each owned particle takes what its contacts remember. Replaces what it held.
+    void keep(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls) {
+        const auto held = store[contacts];
+        const auto ids = store[tsubu::id];
+        for (std::size_t i = 0; i < store.owned_count(); ++i) held[i].clear();
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            if ((pairs_.touches[p] & 1U) == 0) continue;
+            const auto [i, j] = pairs[p];
+            held[i].push_back({ids[j], pairs_.springs[p]});
+            if (static_cast<std::size_t>(j) >= store.owned_count()) continue;
+            auto opposite = pairs_.springs[p];
+            for (auto& one : opposite) one = -one;
+            held[j].push_back({ids[i], opposite});
+        }
+        for (std::size_t p = 0; p < at_walls.size(); ++p)
+            if ((walls_.touches[p] & 1U) != 0)
+                held[at_walls[p].i].push_back({id_of_wall(at_walls[p].j), walls_.springs[p]});
+    }
+    /// Lays the springs beside new lists, and takes them from the particles. @throws input_error if a partner is not
+    /// here.
+    void recall(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls) {
+        pairs_ = spring_table<springs, real>(pairs.size());
+        walls_ = spring_table<springs, real>(at_walls.size());
+        const auto held = store[contacts];
+        std::vector<std::int64_t> partners;
+        for (std::size_t i = 0; i < store.owned_count(); ++i)
+            for (const auto& one : held[i]) partners.push_back(one.partner);
+        if (partners.empty()) return;
+
+        const auto ids = store[tsubu::id];
+        where_.rebuild(ids.span());
+        std::vector<index_t> found(partners.size());
+        where_.find(partners, found);
+        const rows by_first(pairs, store.owned_count());
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < store.owned_count(); ++i) {
+            for (const auto& one : held[i]) {
+                const auto partner = found[at++];
+                if (one.partner < 0)
+                    lay_beside_wall(at_walls, static_cast<index_t>(i), one);
+                else if (partner == absent)
+                    lose(ids[i], one.partner);
+                else
+                    for (const auto p : by_first.of(i)) {
+                        const auto j = pairs[p].j;
+                        // A ghost may be another image than the one that was found.
+                        if (j != partner && (static_cast<std::size_t>(j) < store.owned_count() || ids[j] != one.partner))
+                            continue;
+                        pairs_.touches[p] = 1;
+                        pairs_.springs[p] = one.springs;
+                    }
+            }
+            held[i].clear();
+        }
+        store.compact();
+    }
+
+private:
+    // Pair numbers by first particle.
+    class rows {
+    public:
+        rows(std::span<const index_pair> pairs, std::size_t owned) : begin_(owned + 2, {}), numbers_(pairs.size(), {}) {
+            std::fill(begin_.begin(), begin_.end(), 0U);
+            for (const auto& pair : pairs) ++begin_[static_cast<std::size_t>(pair.i) + 2];
+            for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+            for (std::uint32_t p = 0; p < pairs.size(); ++p)
+                numbers_[begin_[static_cast<std::size_t>(pairs[p].i) + 1]++] = p;
+        }
+        [[nodiscard]] std::span<const std::uint32_t> of(std::size_t i) const noexcept {
+            return {numbers_.data() + begin_[i], begin_[i + 1] - begin_[i]};
+        }
+
+    private:
+        buffer<std::uint32_t> begin_;
+        buffer<std::uint32_t> numbers_;
+    };
+    [[nodiscard]] static std::int64_t id_of_wall(index_t wall) noexcept { return -1 - std::int64_t{wall}; }
+    template <class Remembered>
+    void lay_beside_wall(std::span<const index_pair> at_walls, index_t i, const Remembered& one) {
+        const auto first = std::lower_bound(at_walls.begin(), at_walls.end(), i,
+                                            [](const index_pair& a, index_t b) { return a.i < b; });
+        for (auto p = first; p != at_walls.end() && p->i == i; ++p)
+            if (id_of_wall(p->j) == one.partner) {
+                const auto k = static_cast<std::size_t>(p - at_walls.begin());
+                walls_.touches[k] = 1;
+                walls_.springs[k] = one.springs;
+            }
+    }
+    [[noreturn]] static void lose(std::int64_t id, std::int64_t partner) {
+        tsubu::detail::raise<input_error>("dem",
+                                          "particle " + std::to_string(id) + " remembers a contact with " +
+                                              std::to_string(partner) + ", which is not near it on this rank",
+                                          "insert both of them, or clear what contacts remember");
+    }
+
+    spring_table<springs, real> pairs_;
+    spring_table<springs, real> walls_;
+    id_map<> where_;
+};
+
+}  // namespace tsubu::dem::detail

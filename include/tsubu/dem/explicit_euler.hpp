@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// explicit_euler: why not.
+#pragma once
+
+#include <tsubu/store/field.hpp>
+
+#include <cstddef>  // std::size_t
+
+namespace tsubu::dem {
+
+/// A drift with the old velocities, and a kick with the old forces.
+///
+/// Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains energy, by
+/// (omega dt)^2 per step: for no time step it is stable.
+/// Choose it to see that. Do not otherwise.
+struct explicit_euler {
+    static constexpr unsigned force_evaluations = 1;
+    static constexpr bool moves_spins = true;
+    static constexpr bool solves_damping = false;
+    template <class Q>
+    using keeps = fields<>;
+
+    template <class Run>
+    static void advance(Run& run, double h, std::size_t steps) {
+        for (std::size_t n = 0; n < steps; ++n) {
+            run.drift(h);
+            run.kick(h);
+            run.clear_forces();
+            run.evaluate_forces();
+            run.end_step();
+        }
+    }
+};
+
+}  // namespace tsubu::dem

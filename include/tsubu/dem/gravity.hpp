@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// gravity: the same acceleration of all particles.
+#pragma once
+
+#include <tsubu/core/vec.hpp>
+#include <tsubu/dem/model.hpp>
+#include <tsubu/store/field.hpp>
+
+namespace tsubu::dem {
+
+/// The same acceleration of all particles.
+///
+///     tsubu::dem::gravity{{0, 0, -9.81}}
+struct gravity {
+    static constexpr auto role = model_role::acceleration;
+    template <class Q>
+    using reads = fields<>;
+    template <class Q>
+    using partner_reads = fields<>;
+    template <class Q>
+    using writes = fields<>;
+
+    vec<3> acceleration;  ///< [m/s^2]; in D dimensions the first D
+};
+
+}  // namespace tsubu::dem

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// guards: what is watched while a scene runs, since nothing else would tell.
+#pragma once
+
+namespace tsubu::dem {
+
+/// What is watched while a scene runs. A scene that is unstable need not explode: in a dense bed past the limit nothing
+/// is lost, and only the energy does not decay. Each is an error that says the step, the values and the remedy.
+///
+/// Cost: a pass over contacts or particles every so many steps.
+struct guards {
+    unsigned every = 1000;    ///< steps between two looks; the first is at the start
+    bool time_step = true;    ///< below 2 / sqrt(2 max lambda_max(sum k n n^T) / m), of all particles
+    bool overlap = true;      ///< no two particles overlap by more than the smaller radius
+    bool coordinates = true;  ///< if the fastest particle flies freely, v dt is above half a unit in the last place
+    double energy_floor = 0;  ///< [J] once the kinetic energy was below, it stays below 10 times that; 0: not watched
+};
+
+/// Nothing is watched: to see what happens past a limit.
+inline constexpr guards no_guards{.every = 0, .time_step = false, .overlap = false, .coordinates = false};
+
+}  // namespace tsubu::dem

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// run: a scene with its particles, in time.
+#pragma once
+
+#include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/transport.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/core/types.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/dem/detail/checks.hpp>
+#include <tsubu/dem/detail/columns.hpp>
+#include <tsubu/dem/detail/contact_kernel.hpp>
+#include <tsubu/dem/detail/damping_solver.hpp>
+#include <tsubu/dem/detail/motion.hpp>
+#include <tsubu/dem/detail/neighborhood.hpp>
+#include <tsubu/dem/each_contact.hpp>
+#include <tsubu/dem/options.hpp>
+#include <tsubu/dem/simulation.hpp>
+#include <tsubu/neighbor/pair_list.hpp>
+
+#include <cmath>    // std::sqrt
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::uint64_t
+#include <span>     // std::span
+#include <string>   // std::to_string
+#include <tuple>    // std::get, std::tuple
+#include <vector>   // std::vector
+
+namespace tsubu::dem {
+
+template <class Scene, transport Transport>
+class run;
+
+/// A scene with its particles on the ranks of a transport.
+///
+///     tsubu::dem::run<scene, tsubu::self_transport> bed(box, {.time_step = 1e-4, .skin = 0.1}, on, law, gravity, grains);
+///     bed.particles().push_back(tsubu::id = 1, tsubu::position<3> = {1, 1, 1});
+///     bed.start();
+///     bed.steps(1000);
+///
+/// The models are given in the order of the scene's; equal_spheres last, where the scene does not name it. The transport
+/// must outlive the run.
+///
+/// Collective: start, resume and steps, with the same box, options and models on all ranks.
+/// Threads:    one at a time.
+template <std::size_t D, class Number, class Integrator, class... Models, transport Transport>
+class run<simulation<D, Number, Integrator, Models...>, Transport> {
+public:
+    using scene = simulation<D, Number, Integrator, Models...>;
+    using box_type = typename scene::box_type;
+    using store_type = typename scene::store_type;
+    using real = typename scene::real;
+    using transport_type = Transport;
+
+    /// @throws input_error if a parameter is not what it may be; the message names it, and the remedy.
+    run(const box_type& box, const options& how, Transport& on, const Models&... models)
+        requires scene::names_bodies
+        : run(box, how, on, std::tuple<Models...>(models...)) {}
+    run(const box_type& box, const options& how, Transport& on, const Models&... models, const equal_spheres& bodies)
+        requires(!scene::names_bodies)
+        : run(box, how, on, std::tuple<Models..., equal_spheres>(models..., bodies)) {}
+    run(const run&) = delete;
+    run& operator=(const run&) = delete;
+    ~run() = default;
+
+    /// The particles of this rank; ghosts follow the owned ones. After adding or removing some call start again.
+    [[nodiscard]] store_type& particles() noexcept { return store_; }
+    [[nodiscard]] const store_type& particles() const noexcept { return store_; }
+    [[nodiscard]] const box_type& box() const noexcept { return near_.box(); }
+    [[nodiscard]] Transport& on() const noexcept { return *on_; }
+    [[nodiscard]] const options& how() const noexcept { return how_; }
+    /// The parameters of a model.
+    template <class Model>
+    [[nodiscard]] const Model& model() const noexcept {
+        return std::get<Model>(models_);
+    }
+    [[nodiscard]] std::uint64_t steps_done() const noexcept { return steps_; }
+    /// How often neighbours have been found.
+    [[nodiscard]] std::uint64_t renewals() const noexcept { return near_.renewals(); }
+    /// Which particles are near each other.
+    [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return near_.pairs(); }
+    /// What particles, neighbours and memory of contacts take on this rank [bytes].
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return store_.memory_bytes() + near_.memory_bytes(); }
+
+    /// Particles go to their ranks, neighbours are found, and forces computed.
+    /// @throws on all ranks or none: input_error if a particle is not what it may be, or a guard refuses.
+    void start() { begin(true); }
+    /// As start, for particles of a restart: they have their forces.
+    void resume() { begin(false); }
+    /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left the
+    /// box, or a guard refuses. Particles are as they were at some step before.
+    void steps(std::size_t count) {
+        if (!is_started_) start();
+        Integrator::advance(*this, how_.time_step, count);
+    }
+    /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
+    void keep_memory() { near_.keep_memory(store_); }
+
+    /// body(touching_pair<D>) for each contact of an owned particle; of those across a border each side has one.
+    template <class Body>
+    void each_contact(Body&& body) const {
+        if constexpr (scene::has_contacts)
+            detail::each_touching<scene>(at_, near_.pairs(), near_.near_walls(), near_.walls(), body);
+    }
+    /// body(i, j, spring): each spring from each side that is owned here.
+    template <class Body>
+    void each_spring(Body&& body) const {
+        if constexpr (scene::has_springs)
+            for (const auto& [i, j, kind] : near_.springs())
+                body(i, j, model<typename scene::springs_type>().kinds[static_cast<std::size_t>(kind)]);
+    }
+    /// From particle j to i, the shorter way round on a lattice [m].
+    [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
+        vec<D, double> d;
+        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, at_.x[i][k], at_.x[j][k]));
+        return d;
+    }
+    [[nodiscard]] double mass(index_t i) const noexcept { return static_cast<double>(at_.mass_at(i)); }
+    [[nodiscard]] double radius(index_t i) const noexcept { return static_cast<double>(at_.radius_at(i)); }
+    /// In real units [m].
+    [[nodiscard]] vec<D, double> position(index_t i) const noexcept { return at_.real_position(i); }
+    [[nodiscard]] const vec<D, double>& gravity_acceleration() const noexcept { return gravity_; }
+
+    // What integrators are made of. Durations in seconds.
+
+    /// v += duration a.
+    void kick(double duration) noexcept { mover().kick(duration); }
+    /// x += duration v.
+    void drift(double duration) noexcept { travel(mover().drift(duration), duration); }
+    /// A kick, or two of them, and a drift, in one pass; forces are cleared.
+    template <bool Twice>
+    void kick_and_drift(double kicked, double drifted) noexcept {
+        travel(mover().template kick_and_drift<Twice>(kicked, drifted), drifted);
+    }
+    /// x += step(i), for each owned particle.
+    template <class Step>
+    void displace(Step&& step) {
+        travel(mover().displace(step), 1);
+    }
+    void clear_forces() noexcept { mover().clear_forces(); }
+    [[nodiscard]] vec<D, real> acceleration(std::size_t i) const noexcept { return mover().acceleration(i); }
+    /// The forces of all particles where they are, to be called after positions have changed; forces were cleared.
+    void evaluate_forces() {
+        if (near_.follow(store_)) at_ = columns_type(store_, box(), bodies());
+        find_forces(how_.time_step);
+    }
+    void end_step() {
+        ++steps_;
+        if (how_.guard.every != 0 && steps_ % how_.guard.every == 0) look();
+    }
+
+private:
+    using columns_type = detail::columns<scene>;
+    using bodies_type = typename scene::bodies_type;
+
+    run(const box_type& box, const options& how, Transport& on, const typename scene::models_type& models)
+        : how_(how),
+          on_(&on),
+          models_(models),
+          near_(box, checked(how), on, bodies(), detail::walls_of<scene>(models_), detail::spring_kinds_of<scene>(models_)) {
+        std::apply([](const auto&... one) { (detail::check_model(one), ...); }, models_);
+        if constexpr (scene::has_gravity)
+            for (std::size_t k = 0; k < D; ++k) gravity_[k] = model<typename scene::gravity_type>().acceleration[k];
+    }
+    static const options& checked(const options& how) {
+        if (!(how.time_step > 0) || !tsubu::detail::is_finite(how.time_step))
+            tsubu::detail::raise<input_error>(
+                "dem::run", "a time step of " + tsubu::detail::shown(how.time_step) + " s", "give a finite time above 0");
+        return how;
+    }
+    [[nodiscard]] const bodies_type& bodies() const noexcept { return model<bodies_type>(); }
+    [[nodiscard]] auto mover() const noexcept {
+        return detail::motion<scene>(at_, store_.owned_count(), gravity_);
+    }
+    void travel(real fastest_square, double duration) noexcept {
+        near_.travel(std::sqrt(static_cast<double>(fastest_square)) * std::abs(duration));
+    }
+    void begin(bool finds_forces) {
+        is_started_ = false;
+        agreement<> all(on_->rank());
+        store_.clear_ghosts();
+        all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
+        on_->reduce(all.words(), reduction::sum);
+        all.settle("dem::run::start");
+        near_.renew(store_);
+        at_ = columns_type(store_, box(), bodies());
+        look();
+        if (finds_forces) {
+            clear_forces();
+            find_forces(0);  // no time passes: what contacts remember stays
+        }
+        is_started_ = true;
+    }
+    void look() {
+        detail::watcher<run> watching(*this);
+        agreement<> all(on_->rank());
+        all.attempt([&] { watching.check(steps_); });
+        on_->reduce(all.words(), reduction::sum);
+        all.settle("dem::run");
+        watching.check_energy(steps_, has_been_at_rest_);
+    }
+    void find_forces(double time_step) {
+        if constexpr (scene::has_contacts) {
+            const detail::contact_kernel<scene> kernel(at_, model<typename scene::contact_type>(), time_step);
+            auto& memory = near_.memory();
+            kernel.act_on_pairs(near_.pairs(), memory.pair_touches(), memory.pair_springs());
+            if constexpr (scene::has_walls)
+                kernel.act_on_walls(near_.near_walls(), near_.walls(), memory.wall_touches(), memory.wall_springs());
+        }
+        each_spring([&](index_t i, index_t j, const spring& one) {
+            const auto d = apart(i, j);
+            double square = 0;
+            for (std::size_t k = 0; k < D; ++k) square += d[k] * d[k];
+            const double distance = std::sqrt(square);
+            const double along = -one.k * (distance - one.length) / distance;
+            for (std::size_t k = 0; k < D; ++k) at_.f[i][k] += static_cast<real>(along * d[k]);
+        });
+        if constexpr (Integrator::solves_damping) detail::solve_damping(*this, time_step / 2);
+    }
+
+    options how_;
+    Transport* on_;
+    typename scene::models_type models_;
+    vec<D, double> gravity_{};
+    store_type store_;
+    detail::neighborhood<scene, Transport> near_;
+    columns_type at_;
+    std::uint64_t steps_ = 0;
+    bool has_been_at_rest_ = false;
+    bool is_started_ = false;
+
+    template <class Run>
+    friend void detail::solve_damping(Run&, double);
+};
+
+}  // namespace tsubu::dem

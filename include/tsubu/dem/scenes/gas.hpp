@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A gas of spheres, or of disks, that collide.
+#pragma once
+
+#include <tsubu/core/random.hpp>
+#include <tsubu/core/vec.hpp>
+#include <tsubu/dem/contact_law.hpp>
+#include <tsubu/dem/references.hpp>
+#include <tsubu/dem/simulation.hpp>
+#include <tsubu/dem/stage.hpp>
+#include <tsubu/dem/velocity_verlet.hpp>
+#include <tsubu/store/standard_fields.hpp>
+
+#include <cmath>    // std::cbrt, std::sqrt
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::int64_t, std::uint64_t
+#include <tuple>    // std::tuple
+
+namespace tsubu::dem {
+
+/// Frictionless spheres (in 2-D disks) in a periodic box, on a jittered grid at the beginning, with random velocities
+/// of variance 1 for each component.
+///
+/// Reference: energy and momentum if it is elastic; haff_cooling if not.
+template <class Law = hooke<>, class Integrator = velocity_verlet, class Number = double, std::size_t D = 3>
+struct gas_scene {
+    using simulation = dem::simulation<D, Number, Integrator, Law>;
+
+    Law law;
+    double time_step;                   ///< [s]
+    std::uint64_t per_edge = 22;        ///< particles along each edge
+    double fraction = 0.05;             ///< of the volume (in 2-D of the area) that is filled
+    double skin = 0.3;                  ///< [m]
+    double radius = 0.5;                ///< [m]
+    double mass = 1;                    ///< [kg]
+    double origin = 0;                  ///< the lower face of the box along each axis [m]
+    std::int64_t first_id = 1;
+    bool is_watched = true;             ///< whether a time step past the limit, and coordinates that freeze, are refused
+
+    /// The distance of neighbours on the grid [m].
+    [[nodiscard]] double spacing() const noexcept {
+        const double d = 2 * radius;
+        if constexpr (D == 3) return d * std::cbrt(pi / 6 / fraction);
+        if constexpr (D == 2) return d * std::sqrt(pi / 4 / fraction);
+        return d / fraction;
+    }
+    [[nodiscard]] auto box() const {
+        using box_type = typename simulation::box_type;
+        typename box_type::real_position_type lo{};
+        typename box_type::real_position_type hi{};
+        typename box_type::options with{};
+        for (std::size_t k = 0; k < D; ++k) {
+            using number = typename box_type::real_type;
+            lo[k] = static_cast<number>(origin);
+            hi[k] = static_cast<number>(origin + spacing() * static_cast<double>(per_edge));
+            with.periodic[k] = true;
+        }
+        return box_type(lo, hi, with);
+    }
+    [[nodiscard]] options how() const {
+        return {.time_step = time_step, .skin = skin, .guard = is_watched ? guards{} : no_guards};
+    }
+    [[nodiscard]] auto models() const { return std::tuple(law, equal_spheres{radius, mass}); }
+    [[nodiscard]] std::uint64_t count() const noexcept {
+        std::uint64_t all = 1;
+        for (std::size_t k = 0; k < D; ++k) all *= per_edge;
+        return all;
+    }
+    template <class Store, class Box>
+    void place(Store& store, const Box& box, std::uint64_t n) const {
+        using real = typename simulation::real;
+        typename Box::real_position_type x{};
+        vec<D, real> v{};
+        auto rest = n;
+        for (std::size_t k = 0; k < D; ++k) {
+            // 2 u - 1 with 53 random bits of particle and component
+            const auto signed_unit = [&](std::size_t c) {
+                return 2 * (static_cast<double>(splitmix64(12345 + 8 * (n + 1) + c) >> 11) * 0x1p-53) - 1;
+            };
+            const double cell = static_cast<double>(rest % per_edge);
+            rest /= per_edge;
+            x[k] = static_cast<typename Box::real_type>(
+                origin + ((cell + 0.5) * spacing() + 0.25 * spacing() * signed_unit(k)));
+            v[k] = static_cast<real>(std::sqrt(3.0) * signed_unit(3 + k));
+        }
+        store.push_back(tsubu::id = first_id + static_cast<std::int64_t>(n),
+                        simulation::quantities_type::position = box.from_real(x).position,
+                        simulation::quantities_type::velocity = v);
+    }
+};
+
+/// Disks: two dimensions, no spin.
+template <class Law = hooke<>, class Integrator = velocity_verlet, class Number = double>
+using disks_scene = gas_scene<Law, Integrator, Number, 2>;
+
+}  // namespace tsubu::dem

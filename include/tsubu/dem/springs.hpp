@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// springs: permanent bonds.
+#pragma once
+
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/dem/model.hpp>
+#include <tsubu/store/field.hpp>
+#include <tsubu/store/term.hpp>
+
+#include <cstddef>  // std::size_t
+#include <string>   // std::to_string
+#include <vector>   // std::vector
+
+namespace tsubu::dem {
+
+/// One kind of spring.
+struct spring {
+    double k;       ///< stiffness [N/m]
+    double length;  ///< at rest [m]
+};
+
+/// Springs between pairs of particles, which stay: F = k (r - length). The field tsubu::bonds says between which, as
+/// topology<bonds, newton_off> keeps it: each of the two has the bond, and computes its own force.
+///
+///     tsubu::dem::springs{{{.k = 1, .length = 1}}}     // of bonds of type 1
+///
+/// The halo must reach as far as they stretch: options::cutoff.
+struct springs {
+    static constexpr auto role = model_role::springs;
+    template <class Q>
+    using reads = fields<Q::position, tsubu::bonds>;
+    template <class Q>
+    using partner_reads = fields<Q::position>;
+    template <class Q>
+    using writes = fields<Q::force>;
+
+    std::vector<spring> kinds;  ///< kinds[type - 1]
+
+    /// @throws input_error if a stiffness or a length is negative or not finite.
+    void check() const {
+        for (std::size_t n = 0; n < kinds.size(); ++n)
+            if (!(kinds[n].k >= 0) || !(kinds[n].length >= 0) || !(kinds[n].k * kinds[n].length < 1e308))
+                tsubu::detail::raise<input_error>("dem::springs",
+                                                  "springs of type " + std::to_string(n + 1) + " with k = " +
+                                                      tsubu::detail::shown(kinds[n].k) + " N/m and length " +
+                                                      tsubu::detail::shown(kinds[n].length) + " m",
+                                                  "give finite numbers of at least 0");
+    }
+};
+
+}  // namespace tsubu::dem

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Sums and products of vectors in 1, 2 and 3 dimensions, of numbers or of lanes.
+#pragma once
+
+#include <tsubu/core/lanes.hpp>
+#include <tsubu/core/vec.hpp>
+
+#include <cstddef>  // std::size_t
+
+namespace tsubu::dem {
+
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline Real dot(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
+    Real sum = a[0] * b[0];
+    for (std::size_t k = 1; k < D; ++k) sum = sum + a[k] * b[k];
+    return sum;
+}
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> scaled(const vec<D, Real>& a, const Real& by) noexcept {
+    vec<D, Real> result;
+    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] * by;
+    return result;
+}
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> plus(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
+    vec<D, Real> result;
+    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] + b[k];
+    return result;
+}
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> minus(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
+    vec<D, Real> result;
+    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] - b[k];
+    return result;
+}
+/// The part of a that is at right angles to a unit vector.
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> tangential(const vec<D, Real>& a,
+                                                                 const vec<D, Real>& unit) noexcept {
+    return minus<D, Real>(a, scaled<D, Real>(unit, dot<D, Real>(a, unit)));
+}
+/// The velocity that a spin gives at the end of an arm: spin x arm. In two dimensions the spin is about z.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline vec<3, Real> spin_across(const vec<3, Real>& spin,
+                                                                  const vec<3, Real>& arm) noexcept {
+    return {spin[1] * arm[2] - spin[2] * arm[1], spin[2] * arm[0] - spin[0] * arm[2],
+            spin[0] * arm[1] - spin[1] * arm[0]};
+}
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline vec<2, Real> spin_across(const vec<1, Real>& spin,
+                                                                  const vec<2, Real>& arm) noexcept {
+    return {-(spin[0] * arm[1]), spin[0] * arm[0]};
+}
+/// The torque of a force at the end of an arm: arm x force.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline vec<3, Real> torque_of(const vec<3, Real>& arm,
+                                                                const vec<3, Real>& force) noexcept {
+    return {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
+            arm[0] * force[1] - arm[1] * force[0]};
+}
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline vec<1, Real> torque_of(const vec<2, Real>& arm,
+                                                                const vec<2, Real>& force) noexcept {
+    return {arm[0] * force[1] - arm[1] * force[0]};
+}
+
+}  // namespace tsubu::dem

@@ -125,9 +125,6 @@ auto one_sphere(tsubu::self_transport& on, double time_step, double x, double v,
 TEST_CASE("the restitution of Hookean impacts is of the order that the damping allows", "[dem][order]") {
     const double free = pi / std::sqrt(stiffness / .5);
     CHECK(order_of<velocity_verlet>(hooke<>{{stiffness}}, 1, free) == Approx(2).margin(.15));
-    // No scheme is better than the entry and the exit of a contact.
-    CHECK(order_of<pefrl>(hooke<>{{stiffness}}, 1, free) == Approx(2).margin(.15));
-    CHECK(order_of<runge_kutta_4>(hooke<>{{stiffness}}, 1, free) == Approx(2).margin(.15));
 
     // A dashpot begins with a jump: order 1 of the half step's damping and of the full step's.
     const auto damped = dashpot_impact(stiffness, gamma_n, .5);
@@ -160,7 +157,7 @@ TEST_CASE("the restitution of Hertzian impacts is of order 2.5, 1.5 and 1.25", "
 TEST_CASE("a fine step gives the restitution of the exact solution", "[dem][reference]") {
     const auto check = [](const auto& law, const impact& exact, double tolerance) {
         CHECK(restitution<velocity_verlet>(law, exact.duration / 2000.37, 2000, .5) ==
-              Approx(exact.restitution).margin(tolerance));
+              Approx(exact.restitution).epsilon(0).margin(tolerance));
     };
     check(hooke<>{{stiffness}}, {1, pi / std::sqrt(stiffness / .5)}, 1e-6);
     check(hooke_dashpot<>{{stiffness, gamma_n}}, dashpot_impact(stiffness, gamma_n, .5), 1e-4);
@@ -291,6 +288,11 @@ TEST_CASE("a sphere between walls is stable to within a hundredth of the limit",
         CHECK(displacement_between_walls<implicit_velocity_verlet>(z, .99 * 2) < 1e-8);
         CHECK(displacement_between_walls<implicit_velocity_verlet>(z, 1.01 * 2) > 1e-7);
     }
+}
+
+TEST_CASE("damping is solved for down to motions that are hardly numbers", "[dem][stability]") {
+    // Such a step damps so well that displacements end among the denormal numbers.
+    CHECK(displacement_between_walls<implicit_velocity_verlet>(1, 1.0196) < 1e-100);
 }
 
 namespace {

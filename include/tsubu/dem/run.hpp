@@ -184,7 +184,7 @@ private:
         all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
-        near_.renew(store_);
+        near_.renew(store_, typename scene::restart_fields{});
         at_ = columns_type(store_, box(), bodies());
         look();
         if (finds_forces) {

@@ -46,7 +46,8 @@ struct columns {
     const double* mass = nullptr;
     real radius_of_all{};
     real mass_of_all{};
-    std::array<double, D> step{};  // of a lattice [m]
+    std::array<double, D> step{};              // of a lattice [m]
+    std::array<double, D> steps_per_length{};  // [1/m]
     const typename Scene::box_type* box = nullptr;
 
     columns() = default;
@@ -68,7 +69,10 @@ struct columns {
             mass = store[tsubu::mass].data();
         }
         if constexpr (is_lattice<coordinate>)
-            for (std::size_t k = 0; k < D; ++k) step[k] = where.along(k).length_of(1.0);
+            for (std::size_t k = 0; k < D; ++k) {
+                step[k] = where.along(k).length_of(1.0);
+                steps_per_length[k] = 1 / step[k];
+            }
     }
 
     /// From b to a along axis k; on a lattice the shorter way round.

@@ -79,7 +79,7 @@ public:
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
             keep_memory(store);
-            renew(store);
+            renew(store, typename Scene::migration_fields{});
             return true;
         }
         forward(store, typename Scene::forward_fields{});
@@ -87,12 +87,13 @@ public:
     }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
     void keep_memory(store_type& store) { memory_.keep(store, pairs(), near_walls()); }
-    /// Particles go to their ranks; ghosts and neighbours are found anew. Collective.
-    void renew(store_type& store) {
+    /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.
+    template <class Carried>
+    void renew(store_type& store, Carried carried) {
         pairs_ = {};  // they end with the places of particles, whatever fails below
         near_walls_.clear();
         springs_.clear();
-        migrate(store, parts_, *on_);
+        migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
             store.permute(order_along(hilbert_curve{}, box(), store.owned()[Scene::quantities_type::position]));
         halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store)), *on_);

@@ -99,7 +99,7 @@ public:
     static constexpr std::size_t springs = tangential_type::template springs<D> + rolling_type::template springs<D>;
 
     template <class Q>
-    using partner_reads = union_of<fields<Q::position>,
+    using partner_reads = union_of<typename Q::place_fields,
                                    union_of<std::conditional_t<needs_velocity, fields<Q::velocity>, fields<>>,
                                             std::conditional_t<turns, fields<Q::angular_velocity>, fields<>>>>;
     template <class Q>

@@ -114,7 +114,7 @@ public:
     /// From particle j to i, the shorter way round on a lattice [m].
     [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
         vec<D, double> d;
-        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, at_.x[i][k], at_.x[j][k]));
+        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, i, j));
         return d;
     }
     [[nodiscard]] double mass(index_t i) const noexcept { return static_cast<double>(at_.mass_at(i)); }

@@ -79,7 +79,7 @@ private:
             return vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
                 return V::of([&](auto l) __attribute__((always_inline)) {
                     const auto& pair = pairs[which(l)];
-                    return of.apart(k, of.x[pair.i][k], of.x[pair.j][k]);
+                    return of.apart(k, pair.i, pair.j);
                 });
             });
         }

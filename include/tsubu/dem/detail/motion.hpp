@@ -215,7 +215,14 @@ private:
             }
     }
     [[gnu::always_inline]] void move(std::size_t i, std::size_t k, double by) const noexcept {
-        if constexpr (is_lattice<coordinate>) {
+        if constexpr (Scene::quantities_type::has_offsets) {
+            using integer = decltype(of_.x[i][k].value);
+            auto& offset = of_.offset[i][k];
+            offset += static_cast<real>(by);
+            const auto cells = nearest(static_cast<double>(offset) * of_.steps_per_length[k]);
+            of_.x[i][k] = of_.x[i][k] + static_cast<integer>(cells);
+            offset -= static_cast<real>(static_cast<double>(cells) * of_.step[k]);
+        } else if constexpr (is_lattice<coordinate>) {
             using integer = decltype(of_.x[i][k].value);
             of_.x[i][k] = of_.x[i][k] + static_cast<integer>(nearest(by * of_.steps_per_length[k]));
         } else {

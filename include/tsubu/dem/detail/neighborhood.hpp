@@ -96,7 +96,7 @@ public:
         migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
             store.permute(order_along(hilbert_curve{}, box(), store.owned()[Scene::quantities_type::position]));
-        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store)), *on_);
+        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
         agreement<> all(on_->rank());
         all.attempt([&] {
             if constexpr (Scene::has_contacts) {
@@ -139,6 +139,13 @@ private:
                 "give a cutoff of at least their sum, or 0 for just that");
         return how_.cutoff;
     }
+    /// By how much a particle may be nearer than the middle of its cell, twice [m].
+    [[nodiscard]] double widest_cell() const noexcept {
+        double width = 0;
+        if constexpr (Scene::quantities_type::has_offsets)
+            for (std::size_t k = 0; k < D; ++k) width = (std::max)(width, box().along(k).length_of(1.0));
+        return width * static_cast<double>(D);
+    }
     void find_pairs(store_type& store) {
         const auto build = [&](const auto& x) {
             if constexpr (bodies_type::are_equal)
@@ -177,7 +184,7 @@ private:
         const auto found = topology<tsubu::bonds, newton_off>::resolve(store, where_, same, [&](index_t i, index_t j) {
             double square = 0;
             for (std::size_t k = 0; k < D; ++k) {
-                const auto d = static_cast<double>(of.apart(k, of.x[i][k], of.x[j][k]));
+                const auto d = static_cast<double>(of.apart(k, i, j));
                 square += d * d;
             }
             return square;

@@ -34,7 +34,7 @@ namespace tsubu {
 /// in half to two thirds of the time, and lets each force be computed once.
 ///
 /// Bytes:   4 to 4.5 per neighbour (each pair of owned particles is two) and 8 per owned particle; while it is built
-///          8 D + 12 per particle, and 4 to 32 for cells. A pair_list has 8 to 9 per pair, and none per particle.
+///          8 D + 12 per particle, and 4 to 20 for cells. A pair_list has 8 to 9 per pair, and none per particle.
 /// Threads: many readers or one writer.
 class neighbor_list {
 public:
@@ -55,16 +55,19 @@ public:
         detail::growing<index_t> found(detail::room_after((std::max)(count_, owned)),
                                        (std::numeric_limits<std::uint32_t>::max)(), where);
         buffer<row> rows(owned, {});
-        sorted.each_full(static_cast<index_t>(owned), reach, [&](index_t i, std::span<const index_t> near) {
-            auto* const first = found.room(near.size());
-            auto* to = first;
-            for (const auto j : near) {
-                *to = j;
-                to += j != i ? 1 : 0;
-            }
-            rows[static_cast<std::size_t>(i)] = {static_cast<std::uint32_t>(found.size()),
-                                                 static_cast<std::uint32_t>(to - first)};
-            found.up_to(to);
+        sorted.each_full(static_cast<index_t>(owned), [&](auto& near, std::size_t k) {
+            const auto i = near.index(k);
+            const auto begin = found.size();
+            auto* itself = found.room(near.most());
+            auto* const end = near.near(k, 0, reach, itself, [](index_t j) { return j; });
+            // It is near itself, unless its reach is 0, and soon found: its cell is among the first.
+            *end = i;
+            while (*itself != i) ++itself;
+            auto* const last = itself == end ? end : end - 1;
+            *itself = *last;
+            found.up_to(last);
+            rows[static_cast<std::size_t>(i)] = {static_cast<std::uint32_t>(begin),
+                                                 static_cast<std::uint32_t>(found.size() - begin)};
         });
         count_ = found.size();
         neighbors_ = found.take();

@@ -36,7 +36,7 @@ struct index_pair {
 /// Choose it where what i does to j is the opposite of what j does to i. Do not where each particle gathers from all of
 /// its neighbours, or threads write to one particle each: neighbor_list.
 ///
-/// Bytes:   8 to 9 per pair; while it is built 8 D + 12 per particle, and 4 to 32 for cells.
+/// Bytes:   8 to 9 per pair; while it is built 8 D + 12 per particle, and 4 to 20 for cells.
 /// Threads: many readers or one writer.
 class pair_list {
 public:
@@ -57,15 +57,27 @@ public:
         detail::growing<index_pair> found(detail::room_after((std::max)(count_, owned)),
                                           (std::numeric_limits<std::uint32_t>::max)(), where);
         const auto first_ghost = static_cast<index_t>(owned);
-        sorted.each_half(reach, [&](index_t a, std::span<const index_t> near) {
-            auto* to = found.room(near.size());
-            for (const auto b : near) {
+        // Which of two is an owned one, and has the lower index, is asked of many pairs in one loop.
+        constexpr std::size_t batch = 512;
+        std::size_t settled = 0;
+        const auto settle = [&] {
+            auto* const first = found.data();
+            auto* to = first + settled;
+            for (const auto* from = to; from != first + found.size(); ++from) {
+                const auto [a, b] = *from;
                 const auto i = (std::min)(a, b);
                 *to = {i, (std::max)(a, b)};
                 to += i < first_ghost ? 1 : 0;
             }
             found.up_to(to);
+            settled = found.size();
+        };
+        sorted.each_half([&](const auto& near, std::size_t k, std::size_t begin) {
+            const auto a = near.index(k);
+            found.up_to(near.near(k, begin, reach, found.room(near.most()), [a](index_t b) { return index_pair{a, b}; }));
+            if (found.size() - settled >= batch) settle();
         });
+        settle();
         count_ = found.size();
         pairs_ = found.take();
     }

@@ -47,9 +47,9 @@ public:
         sort(x);
     }
 
-    /// body(i, near): all pairs, each once: `near` are indices of points nearer to point i than the reach.
-    template <class Reach, class Body>
-    void each_half(const Reach& reach, Body&& body) const {
+    /// body(near, k, begin): point k of `near` and those from `begin` on are all candidates, each pair once.
+    template <class Body>
+    void each_half(Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 0 : D == 2 ? 1 : 4;
         const std::size_t steps[4] = {width_[0], plane_ - width_[0], plane_, plane_ + width_[0]};
         each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
@@ -59,12 +59,12 @@ public:
                 stretches[r + 1] = {begin_[c + steps[r] - 1], begin_[c + steps[r] + 2]};
             near.gather(columns_, origin_.data(), stretches);
             const auto own = begin_[c + 1] - begin_[c];
-            for (std::uint32_t k = 0; k < own; ++k) body(near.index(k), near.near(k, k + 1, reach));
+            for (std::uint32_t k = 0; k < own; ++k) body(near, k, k + 1);
         });
     }
-    /// The same with each pair from both sides, for points below `end` only; i is among those near i.
-    template <class Reach, class Body>
-    void each_full(index_t end, const Reach& reach, Body&& body) const {
+    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point with an index below `end`.
+    template <class Body>
+    void each_full(index_t end, Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 1 : D == 2 ? 3 : 9;
         each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
             // Of the points of a cell the first has the lowest index.
@@ -80,8 +80,7 @@ public:
             near.gather(columns_, origin_.data(), stretches);
             const auto first = begin_[c] - begin_[c - 1];
             const auto own = begin_[c + 1] - begin_[c];
-            for (auto k = first; k < first + own && near.index(k) < end; ++k)
-                body(near.index(k), near.near(k, 0, reach));
+            for (auto k = first; k < first + own && near.index(k) < end; ++k) body(near, k);
         });
     }
 
@@ -165,9 +164,9 @@ private:
         }
         std::uint32_t sum = 0;
         for (std::size_t c = 2; c < begin_.size(); ++c) begin[c] = sum += begin[c];
-        // Whole chunks are copied from any point on.
-        for (auto& along : columns_) along = buffer<Real>(count_ + stencil_points<D, Real>::chunk, {});
-        origin_ = buffer<index_t>(count_ + stencil_points<D, Real>::chunk, {});
+        // Chunks are copied from any point on.
+        for (auto& along : columns_) along = buffer<Real>(count_ + stencil_points<D, Real>::spare, {});
+        origin_ = buffer<index_t>(count_ + stencil_points<D, Real>::spare, {});
         for (std::size_t i = 0; i < count_; ++i) {
             const auto to = begin[cell[i] + 1]++;
             const auto& at = x[i];
@@ -177,11 +176,11 @@ private:
     }
     template <class Body>
     void each_cell(Body&& body) const {
-        stencil_points<D, Real> near;
+        stencil_points<D, Real> near(2 * count_ > 3 * filled_count_);
         for (std::size_t f = 0; f < filled_count_; ++f) body(near, filled_[f]);
     }
 
-    static constexpr std::size_t cells_per_point = 8;
+    static constexpr std::size_t cells_per_point = 4;
 
     std::size_t count_;
     vec<D, Real> lo_{};

@@ -30,6 +30,7 @@ public:
     [[gnu::always_inline]] void up_to(const Value* end) noexcept {
         count_ = static_cast<std::size_t>(end - values_.data());
     }
+    [[nodiscard]] Value* data() noexcept { return values_.data(); }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
     /// The values, and room for an eighth more at most: a copy that saved less would cost more than it gives.
     [[nodiscard]] buffer<Value> take() {

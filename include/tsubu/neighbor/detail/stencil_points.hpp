@@ -12,7 +12,8 @@
 #include <cstdint>  // std::uint32_t
 #include <cstring>  // std::memcpy
 #include <limits>   // std::numeric_limits
-#include <span>     // std::span
+#include <type_traits>  // std::integral_constant
+#include <utility>    // std::index_sequence
 
 namespace tsubu::detail {
 
@@ -28,11 +29,14 @@ class stencil_points {
     using V = lanes<Real>;
 
 public:
-    /// How many are copied at once, needed or not: most stretches are no longer than one or two chunks, and a loop that
-    /// runs once or twice is cheaper than one that runs as often as there are points.
-    static constexpr std::uint32_t chunk = 8;
+    /// How many are copied at once, needed or not. A stretch is mostly no longer than one or two of these: a loop that
+    /// runs once is cheaper than one of which the end cannot be predicted.
+    static constexpr std::uint32_t chunk = 4;
+    /// By how much columns are longer than their points.
+    static constexpr std::uint32_t spare = 2 * chunk;
 
-    stencil_points() { make_room(512); }
+    /// @param longer  most stretches are longer than a chunk
+    explicit stencil_points(bool longer) : longer_(longer) { make_room(512); }
 
     /// Takes the points of the stretches. @param columns, origin  can be read up to a chunk behind the last point
     template <std::size_t Count>
@@ -48,15 +52,16 @@ public:
             to[k] = x_[k].data();
         }
         auto* const index = index_.data();
+        const auto step = longer_ ? 2 * chunk : chunk;
         std::size_t n = 0;
         for (const auto& one : stretches) {
             auto b = std::size_t{one.first};
             auto m = n;
             do {
-                for (std::size_t k = 0; k < D; ++k) std::memcpy(to[k] + m, from[k] + b, chunk * sizeof(Real));
-                std::memcpy(index + m, origin + b, chunk * sizeof(index_t));
-                b += chunk;
-                m += chunk;
+                copy_chunk(from, to, origin, index, b, m);
+                if (longer_) copy_chunk(from, to, origin, index, b + chunk, m + chunk);
+                b += step;
+                m += step;
             } while (b < one.last);
             n += one.last - one.first;
         }
@@ -68,51 +73,66 @@ public:
         count_ = n;
     }
     [[nodiscard]] index_t index(std::size_t k) const noexcept { return index_[k]; }
-    /// The indices of the points from `begin` on that are near point k, in their order. Holds until the next call.
-    template <class Reach>
-    [[nodiscard, gnu::always_inline]] std::span<const index_t> near(std::size_t k, std::size_t begin, const Reach& reach) {
-        std::array<V, D> at;
-        for (std::size_t d = 0; d < D; ++d) at[d] = V(x_[d][k]);
-        const auto i = index_[k];
+    /// How many values near() may write, and more than are points.
+    [[nodiscard]] std::size_t most() const noexcept { return count_ + V::count; }
+    /// Writes value(j) of each point j from `begin` on that is near point k, itself too, in their order. @return where they end
+    template <class Reach, class Value, class Make>
+    [[nodiscard, gnu::always_inline]] Value* near(std::size_t k, std::size_t begin, const Reach& reach, Value* to,
+                                                  Make value) const {
         std::array<const Real*, D> x{};
-        for (std::size_t d = 0; d < D; ++d) x[d] = x_[d].data();
+        std::array<V, D> at;
+        for (std::size_t d = 0; d < D; ++d) {
+            x[d] = x_[d].data();
+            at[d] = V(x[d][k]);
+        }
         const auto* const index = index_.data();
-        auto* const found = found_.data();
-        std::size_t count = 0;
-        for (auto b = begin; b < count_; b += V::count) {
+        const auto i = index[k];
+        const auto count = count_;
+        for (auto b = begin; b < count; b += V::count) {
             V square(Real(0));
-            for (std::size_t d = 0; d < D; ++d) {
+            each_axis([&](auto d) {
                 typename V::native other;
                 std::memcpy(&other, x[d] + b, sizeof(other));
                 const V apart = at[d] - V(other);
                 square += apart * apart;
-            }
+            });
             V limit;
             for (std::size_t l = 0; l < V::count; ++l) limit.set(l, reach.template square<Real>(i, index[b + l]));
             const auto bits = (square < limit).bits();
             // Branch-free: whether two are near cannot be predicted.
             for (std::size_t l = 0; l < V::count; ++l) {
-                found[count] = index[b + l];
-                count += bits >> l & 1U;
+                *to = value(index[b + l]);
+                to += bits >> l & 1U;
             }
         }
-        return {found, count};
+        return to;
     }
 
 private:
+    // A loop over the axes that g++ unrolls at -O2 too.
+    template <class Body>
+    [[gnu::always_inline]] static void each_axis(Body&& body) {
+        [&]<std::size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
+            (body(std::integral_constant<std::size_t, K>{}), ...);
+        }(std::make_index_sequence<D>{});
+    }
+    [[gnu::always_inline]] static void copy_chunk(const std::array<const Real*, D>& from, const std::array<Real*, D>& to,
+                                                  const index_t* origin, index_t* index, std::size_t b, std::size_t m) {
+        each_axis([&](auto k) { std::memcpy(to[k] + m, from[k] + b, chunk * sizeof(Real)); });
+        std::memcpy(index + m, origin + b, chunk * sizeof(index_t));
+    }
     [[gnu::noinline]] void make_room(std::size_t count) {
-        const auto size = count + chunk + V::count;
+        const auto size = count + spare + V::count;
         for (auto& along : x_) along = buffer<Real>(size, {});
         index_ = buffer<index_t>(size, {});
-        found_ = buffer<index_t>(size, {});
         room_ = count;
     }
 
+    bool longer_;
     std::size_t room_ = 0;
     std::size_t count_ = 0;
     std::array<buffer<Real>, D> x_;
     buffer<index_t> index_;
-    buffer<index_t> found_;
 };
 
 }  // namespace tsubu::detail

@@ -94,6 +94,7 @@ public:
     void steps(std::size_t count) {
         if (!is_started_) start();
         Integrator::advance(*this, how_.time_step, count);
+        near_.check_uses();
     }
     /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
     void keep_memory() { near_.keep_memory(store_); }

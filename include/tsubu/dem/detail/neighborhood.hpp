@@ -85,6 +85,10 @@ public:
         forward(store, typename Scene::forward_fields{});
         return false;
     }
+    /// Between two looks: whether lists have been used too long. Collective.
+    void check_uses() {
+        if (how_.check_every > 1) watch_.check(*on_);
+    }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
     void keep_memory(store_type& store) { memory_.keep(store, pairs(), near_walls()); }
     /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.

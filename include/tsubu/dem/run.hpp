@@ -94,6 +94,7 @@ public:
     void steps(std::size_t count) {
         if (!is_started_) start();
         Integrator::advance(*this, how_.time_step, count);
+        near_.check_uses();
     }
     /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
     void keep_memory() { near_.keep_memory(store_); }
@@ -114,7 +115,7 @@ public:
     /// From particle j to i, the shorter way round on a lattice [m].
     [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
         vec<D, double> d;
-        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, at_.x[i][k], at_.x[j][k]));
+        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, i, j));
         return d;
     }
     [[nodiscard]] double mass(index_t i) const noexcept { return static_cast<double>(at_.mass_at(i)); }
@@ -143,8 +144,11 @@ public:
     [[nodiscard]] vec<D, real> acceleration(std::size_t i) const noexcept { return mover().acceleration(i); }
     /// The forces of all particles where they are, to be called after positions have changed; forces were cleared.
     void evaluate_forces() {
-        if (near_.follow(store_)) at_ = columns_type(store_, box(), bodies());
-        find_forces(how_.time_step);
+        const bool is_new = near_.follow(store_);
+        if (is_new) at_ = columns_type(store_, box(), bodies());
+        find_forces(how_.time_step, [&] {
+            if (!is_new) near_.finish(store_);
+        });
     }
     void end_step() {
         ++steps_;
@@ -184,12 +188,12 @@ private:
         all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
-        near_.renew(store_);
+        near_.renew(store_, typename scene::restart_fields{});
         at_ = columns_type(store_, box(), bodies());
         look();
         if (finds_forces) {
             clear_forces();
-            find_forces(0);  // no time passes: what contacts remember stays
+            find_forces(0, [] {});  // no time passes: what contacts remember stays
         }
         is_started_ = true;
     }
@@ -201,13 +205,22 @@ private:
         all.settle("dem::run");
         watching.check_energy(steps_, has_been_at_rest_);
     }
-    void find_forces(double time_step) {
+    /// @param finish  to be called before anything is read of ghosts
+    template <class Finish>
+    void find_forces(double time_step, Finish&& finish) {
         if constexpr (scene::has_contacts) {
             const detail::contact_kernel<scene> kernel(at_, model<typename scene::contact_type>(), time_step);
             auto& memory = near_.memory();
-            kernel.act_on_pairs(near_.pairs(), memory.pair_touches(), memory.pair_springs());
+            const auto pairs = near_.pairs();
+            const auto inner = near_.inner_pairs();
+            kernel.act_on_pairs(pairs.first(inner), memory.pair_touches(), memory.pair_springs());
+            finish();
+            kernel.act_on_pairs(pairs.subspan(inner), memory.pair_touches() + (scene::remembers ? inner : 0),
+                                memory.pair_springs() + (scene::remembers ? inner : 0));
             if constexpr (scene::has_walls)
                 kernel.act_on_walls(near_.near_walls(), near_.walls(), memory.wall_touches(), memory.wall_springs());
+        } else {
+            finish();
         }
         each_spring([&](index_t i, index_t j, const spring& one) {
             const auto d = apart(i, j);

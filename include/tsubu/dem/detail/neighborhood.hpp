@@ -75,27 +75,37 @@ public:
 
     /// No particle goes farther than this until the next call [m].
     void travel(double distance) noexcept { watch_.travel(distance); }
-    /// Ghosts follow their owners, or neighbours are found anew if that is due. @return whether they were. Collective.
+    /// Ghosts begin to follow their owners, or neighbours are found anew if that is due. @return whether they were.
+    /// Collective, and finish after it if they were not.
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
             keep_memory(store);
-            renew(store);
+            renew(store, typename Scene::migration_fields{});
             return true;
         }
-        forward(store, typename Scene::forward_fields{});
+        start_forward(store, typename Scene::forward_fields{});
         return false;
+    }
+    /// The values of ghosts are there when this returns. Collective.
+    void finish(store_type& store) { finish_forward(store, typename Scene::forward_fields{}); }
+    /// Of pairs(), how many, the first ones, have no ghost.
+    [[nodiscard]] std::size_t inner_pairs() const noexcept { return pairs_.inner_count(); }
+    /// Between two looks: whether lists have been used too long. Collective.
+    void check_uses() {
+        if (how_.check_every > 1) watch_.check(*on_);
     }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
     void keep_memory(store_type& store) { memory_.keep(store, pairs(), near_walls()); }
-    /// Particles go to their ranks; ghosts and neighbours are found anew. Collective.
-    void renew(store_type& store) {
+    /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.
+    template <class Carried>
+    void renew(store_type& store, Carried carried) {
         pairs_ = {};  // they end with the places of particles, whatever fails below
         near_walls_.clear();
         springs_.clear();
-        migrate(store, parts_, *on_);
+        migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
             store.permute(order_along(hilbert_curve{}, box(), store.owned()[Scene::quantities_type::position]));
-        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store)), *on_);
+        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
         agreement<> all(on_->rank());
         all.attempt([&] {
             if constexpr (Scene::has_contacts) {
@@ -117,6 +127,14 @@ public:
     }
 
 private:
+    template <auto... F>
+    void start_forward(const store_type& store, fields<F...>) {
+        if constexpr (sizeof...(F) != 0) halo_.start_forward(store, F...);
+    }
+    template <auto... F>
+    void finish_forward(store_type& store, fields<F...>) {
+        if constexpr (sizeof...(F) != 0) halo_.finish_forward(store, F...);
+    }
     /// How far ghosts are needed [m]: as far as particles touch, and the skin. Collective.
     [[nodiscard]] double cutoff(const store_type& store) {
         double touching = 0;
@@ -137,6 +155,13 @@ private:
                     tsubu::detail::shown(touching) + " m, and the skin is " + tsubu::detail::shown(how_.skin) + " m",
                 "give a cutoff of at least their sum, or 0 for just that");
         return how_.cutoff;
+    }
+    /// By how much a particle may be nearer than the middle of its cell, twice [m].
+    [[nodiscard]] double widest_cell() const noexcept {
+        double width = 0;
+        if constexpr (Scene::quantities_type::has_offsets)
+            for (std::size_t k = 0; k < D; ++k) width = (std::max)(width, box().along(k).length_of(1.0));
+        return width * static_cast<double>(D);
     }
     void find_pairs(store_type& store) {
         const auto build = [&](const auto& x) {
@@ -176,7 +201,7 @@ private:
         const auto found = topology<tsubu::bonds, newton_off>::resolve(store, where_, same, [&](index_t i, index_t j) {
             double square = 0;
             for (std::size_t k = 0; k < D; ++k) {
-                const auto d = static_cast<double>(of.apart(k, of.x[i][k], of.x[j][k]));
+                const auto d = static_cast<double>(of.apart(k, i, j));
                 square += d * d;
             }
             return square;

@@ -4,6 +4,16 @@
 #include <tsubu/comm/mpi_transport.hpp>
 #include <tsubu/dem/stage.hpp>
 
+namespace dem_laws {
+
+template <class Body>
+void on_one_rank(tsubu::mpi_transport&, Body&& body) {
+    tsubu::mpi_transport alone(MPI_COMM_SELF);
+    body(alone);
+}
+
+}  // namespace dem_laws
+
 #include "dem_laws/rank_laws.hpp"
 #include "in_world.hpp"
 

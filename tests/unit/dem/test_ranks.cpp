@@ -5,6 +5,16 @@
 #include <tsubu/comm/local_transport.hpp>
 
 #include "comm_laws/on_ranks.hpp"
+
+namespace dem_laws {
+
+template <class Body>
+void on_one_rank(tsubu::local_transport&, Body&& body) {
+    tsubu::run_ranks(1, body);
+}
+
+}  // namespace dem_laws
+
 #include "dem_laws/rank_laws.hpp"
 #include "unit/io/scratch_folder.hpp"
 

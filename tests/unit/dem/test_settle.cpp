@@ -110,6 +110,15 @@ TEST_CASE("neighbours that were used too long are found out, and named", "[dem][
     bed_with_options scene;
     scene.cells = {5, 5, 6};
     tsubu::self_transport on;
+    // 2 v_max dt every is at most .04, below the skin of .1.
+    const auto after = [&](unsigned check_every) {
+        scene.check_every = check_every;
+        const auto bed = stage(scene, on);
+        bed->steps(800);
+        return states_of(*bed);
+    };
+    CHECK(farthest(after(20), after(1), 6) < 1e-9);
+
     scene.check_every = 500;
     const auto bed = stage(scene, on);
     const auto text = thrown<tsubu::input_error>([&] { bed->steps(5000); });

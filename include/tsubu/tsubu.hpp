@@ -116,6 +116,7 @@
 #include <tsubu/dem/gravity.hpp>
 #include <tsubu/dem/guards.hpp>
 #include <tsubu/dem/implicit_velocity_verlet.hpp>
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/model.hpp>
 #include <tsubu/dem/normal_laws.hpp>

@@ -183,6 +183,7 @@ private:
 
 template <class... Parts>
 using hooke = contact_law<hooke_normal, Parts...>;
+static_assert(model<hooke<>>);
 template <class... Parts>
 using hooke_dashpot = contact_law<hooke_dashpot_normal, Parts...>;
 template <class... Parts>

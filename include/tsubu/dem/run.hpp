@@ -45,7 +45,7 @@ class run;
 ///
 /// Collective: start, resume and steps, with the same box, options and models on all ranks.
 /// Threads:    one at a time.
-template <std::size_t D, class Number, class Integrator, class... Models, transport Transport>
+template <std::size_t D, number_policy Number, integrator Integrator, model... Models, transport Transport>
 class run<simulation<D, Number, Integrator, Models...>, Transport> {
 public:
     using scene = simulation<D, Number, Integrator, Models...>;

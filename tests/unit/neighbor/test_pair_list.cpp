@@ -67,27 +67,30 @@ TEMPLATE_TEST_CASE_SIG("a pair list reaches as far as two radii and the skin", "
     }
 }
 
-// Where the number of a cell is rounded, two points may be put two cells apart that are nearer than the reach.
+// Where the number of a cell is rounded, two points may be put two cells apart that are nearer than the reach: one just
+// below the border of a cell, the other as far above it as is near.
 TEMPLATE_TEST_CASE("pairs just inside the reach are found wherever they are", "[neighbor][pair_list]", float, double) {
     using limits = std::numeric_limits<TestType>;
     for (const auto start : {TestType(0), TestType(1000), TestType(-3e6)})
-        for (const auto reach : {TestType(0.1), TestType(1) / 3, TestType(0.7)}) {
-            points<1, TestType> x;
-            auto at = start;
-            for (int i = 0; i < 3000; ++i) {
-                x.push_back({at});
-                // The last place of which the distance, as it is rounded, is below the reach.
-                auto next = at + reach;
-                while (!((next - at) * (next - at) < reach * reach)) next = std::nextafter(next, -limits::infinity());
-                at = next;
+        for (const auto reach : {TestType(0.1), TestType(1) / 3, TestType(0.7), TestType(1) + limits::epsilon()}) {
+            points<1, TestType> x{{start}};
+            for (int cell = 1; cell < 1000; ++cell) {
+                auto below = start + static_cast<TestType>(cell) * reach;
+                for (int places = 0; places < 3; ++places) {
+                    auto above = below + reach;
+                    while (!((above - below) * (above - below) < reach * reach))
+                        above = std::nextafter(above, -limits::infinity());
+                    x.push_back({below});
+                    x.push_back({above});
+                    below = std::nextafter(below, -limits::infinity());
+                }
             }
             tsubu::pair_list list;
-            const tsubu::same_reach near{static_cast<double>(reach)};
-            list.build(x, x.size(), near);
+            list.build(x, x.size(), tsubu::same_reach{static_cast<double>(reach)});
             INFO("from " << start << ", reach " << reach);
-            std::size_t missing = 0;
             const auto found = near_points::sorted(list);
-            for (std::size_t i = 0; i + 1 < x.size(); ++i)
+            std::size_t missing = 0;
+            for (std::size_t i = 1; i < x.size(); i += 2)
                 missing += !std::binary_search(found.begin(), found.end(), near_points::pair(i, i + 1));
             CHECK(missing == 0);
         }

@@ -53,7 +53,7 @@ public:
         constexpr std::size_t rows = D == 1 ? 0 : D == 2 ? 1 : 4;
         const std::size_t steps[4] = {width_[0], plane_ - width_[0], plane_, plane_ + width_[0]};
         each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
-            std::array<stretch, rows + 1> stretches;
+            std::array<point_stretch, rows + 1> stretches;
             stretches[0] = {begin_[c], begin_[c + 2]};
             for (std::size_t r = 0; r < rows; ++r)
                 stretches[r + 1] = {begin_[c + steps[r] - 1], begin_[c + steps[r] + 2]};
@@ -69,7 +69,7 @@ public:
         each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
             // Of the points of a cell the first has the lowest index.
             if (origin_[begin_[c]] >= end) return;
-            std::array<stretch, rows> stretches;
+            std::array<point_stretch, rows> stretches;
             stretches[0] = {begin_[c - 1], begin_[c + 2]};
             std::size_t r = 1;
             for (std::size_t z = 0; z < (D == 3 ? 3U : 1U); ++z)

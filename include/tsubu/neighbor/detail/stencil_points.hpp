@@ -18,7 +18,7 @@
 namespace tsubu::detail {
 
 /// The points [first, last) of some order.
-struct stretch {
+struct point_stretch {
     std::uint32_t first;
     std::uint32_t last;
 };
@@ -41,7 +41,7 @@ public:
     /// Takes the points of the stretches. @param columns, origin  can be read up to a chunk behind the last point
     template <std::size_t Count>
     [[gnu::always_inline]] void gather(const std::array<buffer<Real>, D>& columns, const index_t* origin,
-                                       const std::array<stretch, Count>& stretches) {
+                                       const std::array<point_stretch, Count>& stretches) {
         std::size_t all = 0;
         for (const auto& one : stretches) all += one.last - one.first;
         if (all > room_) make_room(2 * all);

@@ -115,6 +115,38 @@ TEST_CASE("points that are sorted have sorted pairs, and the order depends on th
     }
 }
 
+/// Counts how often two are compared.
+struct counted_reach {
+    double distance;
+    std::size_t* count;
+
+    double greatest(std::size_t) const { return distance; }
+    template <class Real>
+    Real square(tsubu::index_t, tsubu::index_t) const noexcept {
+        ++*count;
+        return static_cast<Real>(distance * distance);
+    }
+};
+
+// Cells that all of them fit in would have most particles in one of them.
+TEMPLATE_TEST_CASE("a few far away do not make the others be compared with each other", "[neighbor][pair_list]", float,
+                   double) {
+    const auto near = near_points::scattered<3, TestType>(4000, 16, 13);
+    std::size_t least = 0;
+    tsubu::pair_list list;
+    list.build(near, near.size(), counted_reach{1, &least});
+    CHECK(least < 30 * near.size());
+    for (const double away : {1e2, 1e4, 1e9, 1e30}) {
+        auto x = near;
+        for (std::size_t i = 0; i < 20; ++i) x[i * 100][i % 3] = static_cast<TestType>(i < 15 ? away : -away * 1e-2);
+        std::size_t count = 0;
+        list.build(x, x.size(), counted_reach{1, &count});
+        INFO(away);
+        CHECK(count < 2 * least);
+        CHECK(near_points::sorted(list) == near_points::by_comparing_all(x, x.size(), tsubu::same_reach{1}));
+    }
+}
+
 TEST_CASE("a pair list takes the columns of a store, and arrays", "[neighbor][pair_list]") {
     tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>>, tsubu::aos> grains;
     for (int i = 0; i < 4; ++i) grains.push_back(tsubu::id = i, tsubu::position<3> = {0.9 * i, 0, 0});

@@ -91,8 +91,9 @@ std::vector<cloud<D, Real>> clouds() {
     strays[33][0] = static_cast<Real>(-1e30);
     all.push_back({"with strays", strays, 1});
     points<D, Real> crowds;
+    const auto crowd = scattered<D, Real>(50, 1, 5);
     for (int c = 0; c < 5; ++c)
-        for (const auto& at : moved<D, Real>(scattered<D, Real>(50, 1, 5), std::pow(0.1, c), 3 * c)) crowds.push_back(at);
+        for (const auto& at : moved<D, Real>(crowd, std::pow(0.1, c), 3 * c)) crowds.push_back(at);
     all.push_back({"crowded", crowds, 0.3});
     return all;
 }

@@ -61,8 +61,7 @@ TEMPLATE_TEST_CASE_SIG("a pair list reaches as far as two radii and the skin", "
             const tsubu::radii_reach<> reach{radii, skin};
             tsubu::pair_list list;
             list.build(cloud.x, cloud.x.size() * 3 / 4, reach);
-            CHECK(near_points::sorted(list) ==
-                  near_points::by_comparing_all(cloud.x, cloud.x.size() * 3 / 4, reach));
+            CHECK(near_points::sorted(list) == near_points::by_comparing_all(cloud.x, cloud.x.size() * 3 / 4, reach));
         }
     }
 }
@@ -96,7 +95,7 @@ TEMPLATE_TEST_CASE("pairs just inside the reach are found wherever they are", "[
         }
 }
 
-TEST_CASE("points that are sorted have sorted pairs, and the order depends on the input alone", "[neighbor][pair_list]") {
+TEST_CASE("sorted points have sorted pairs, and the order depends on the input alone", "[neighbor][pair_list]") {
     auto x = near_points::scattered<1, double>(500, 200, 8);
     std::sort(x.begin(), x.end());
     tsubu::pair_list list;

@@ -10,6 +10,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/interval.hpp>
+#include <tsubu/neighbor/detail/list_checks.hpp>
 #include <tsubu/neighbor/detail/stencil_points.hpp>
 
 #include <algorithm>  // std::fill, std::max, std::min
@@ -22,8 +23,8 @@
 
 namespace tsubu::detail {
 
-// Cells along x follow each other, then rows along y, then layers along z; points are sorted by cell, so that three cells
-// in a row are one stretch of points. A layer of empty cells around all is what stencils at the border look at.
+// Cells along x follow each other, then rows along y, then layers along z; points are sorted by cell, so that three
+// cells in a row are one stretch of points. A layer of empty cells around all is what stencils at the border look at.
 //
 //     . . . . . .        stencil of a cell c in 2-D, each pair once:
 //     . a b c d .            * * *      the stretch of three cells above,
@@ -32,8 +33,8 @@ namespace tsubu::detail {
 //
 // A stretch holds a few points only, and how many cannot be predicted. So the points of a stencil are first copied one
 // stretch behind the other, and then compared with each point of the cell in one loop, as many at a time as there are
-// lanes. Empty cells are never looked at: the others are listed, in the order of their first points. If points lie along
-// a curve, pairs do too.
+// lanes. Empty cells are never looked at: the others are listed, in the order of their first points. If points lie
+// along a curve, pairs do too.
 
 /// Points in the order of their cells.
 template <std::size_t D, class Real>
@@ -63,7 +64,7 @@ public:
             for (std::uint32_t k = 0; k < own; ++k) body(near, k, k + 1);
         });
     }
-    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point with an index below `end`.
+    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point of an index below `end`.
     template <class Body>
     void each_full(index_t end, Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 1 : D == 2 ? 3 : 9;
@@ -86,9 +87,9 @@ public:
     }
 
 private:
-    // Cells are as wide as the cutoff, or wider where the points are so sparse that most would be empty. A few points far
-    // from all others would make them so wide that all others share one: then cells fill the place of most points only,
-    // and those outside count as in the nearest. Two that are near each other are still in cells beside each other.
+    // Cells are as wide as the cutoff, or wider where the points are so sparse that most would be empty. A few points
+    // far from all others would make them so wide that all others share one: then cells fill the place of most points
+    // only, and those outside count as in the nearest. Two that are near each other are still in cells side by side.
     template <class Positions>
     void lay_out(const char* where, const Positions& x, Real cutoff) {
         const auto most = static_cast<Real>((std::min)(cells_per_point * count_ + 64, std::size_t{1} << 30));
@@ -258,5 +259,15 @@ private:
     std::array<buffer<Real>, D> columns_;
     buffer<index_t> origin_;  // where each was before
 };
+
+/// What each list of neighbours begins with. @throws input_error, limit_error
+template <class Positions, class Reach>
+[[nodiscard]] auto sorted_into_cells(const char* where, const Positions& x, std::size_t owned, const Reach& reach) {
+    using real = number_of_position<Positions>;
+    const auto count = static_cast<std::size_t>(x.size());
+    const double greatest = reach.greatest(count);
+    check_list<real>(where, count, owned, greatest);
+    return cells<dimension_of<position_in<Positions>>, real>(where, x, static_cast<real>(greatest));
+}
 
 }  // namespace tsubu::detail

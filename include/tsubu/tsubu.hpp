@@ -103,6 +103,7 @@
 #include <tsubu/comm/shared_restart.hpp>
 #include <tsubu/comm/transport.hpp>
 
+#include <tsubu/neighbor/neighbor_list.hpp>
 #include <tsubu/neighbor/pair_list.hpp>
 #include <tsubu/neighbor/reach.hpp>
 #include <tsubu/neighbor/skin_watch.hpp>

@@ -115,6 +115,10 @@ public:
     /// Any order of the parts. @throws input_error if a parameter is negative, 0 where it may not be, or not finite.
     explicit contact_law(const Normal& normal, const Parts&... parts) : normal_(normal) {
         (take(parts), ...);
+        check();
+    }
+    /// @throws input_error as the constructor.
+    void check() const {
         normal_.check();
         tangential_.check();
         rolling_.check();

@@ -63,7 +63,9 @@ public:
         }
         unchecked_ = 0;
         // Before the next look there are uses after every - 1 steps, as fast as since the last look, or a quarter faster.
-        const double ahead = 1.25 * (travelled_ - looked_) * (every_ - 1) / every_;
+        // No product if there are none, nor where the way is infinite.
+        const double ahead =
+            every_ > 1 && travelled_ > looked_ ? 1.25 * (travelled_ - looked_) * (every_ - 1) / every_ : 0;
         looked_ = travelled_;
         double both[2] = {travelled_ + ahead, used_};
         on.reduce(std::span<double>(both), reduction::greatest);

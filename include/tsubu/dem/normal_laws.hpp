@@ -60,8 +60,8 @@ static_assert(normal_law<hooke_normal>);
 /// A linear spring and a dashpot: F = k d - gamma m* v.
 ///
 /// Concept: normal_law. Choose it where all collisions are to have the same restitution, whatever their speed: e =
-/// exp(-beta t_c), t_c = pi / sqrt(k/m* - beta^2), beta = gamma / 2. Do not for an accuracy beyond 1e-2 with the half
-/// step's damping: velocity_verlet<implicit_damping>.
+/// exp(-beta t_c), t_c = pi / sqrt(k/m* - beta^2), beta = gamma / 2. Do not for an accuracy beyond 1e-2: a jump
+/// at the touch makes every scheme first order.
 /// Source: Cundall & Strack 1979, doi:10.1680/geot.1979.29.1.47; gamma as LAMMPS' pair_style gran/hooke has it.
 struct hooke_dashpot_normal {
     static constexpr bool is_damped = true;

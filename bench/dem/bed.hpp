@@ -90,11 +90,16 @@ struct bed_scene {
             v[k] = static_cast<typename simulation::real>(bed[tsubu::velocity<3>][static_cast<std::size_t>(n)][k]);
         }
         const auto name = bed[tsubu::id][static_cast<std::size_t>(n)];
+        const auto first = store.owned_count();
         if constexpr (Bodies::are_equal)
             store.push_back(tsubu::id = name, q::position = box.from_real(x).position, q::velocity = v);
         else
             store.push_back(tsubu::id = name, q::position = box.from_real(x).position, q::velocity = v,
                             tsubu::radius = 0.5, tsubu::mass = 1.0);
+        if constexpr (simulation::turns)
+            for (std::size_t k = 0; k < 3; ++k)
+                store[q::angular_velocity][first][k] = static_cast<typename simulation::real>(
+                    bed[tsubu::angular_velocity<3>][static_cast<std::size_t>(n)][k]);
     }
 };
 

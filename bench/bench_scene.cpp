@@ -190,7 +190,8 @@ private:
                 spheres.push_back({{number(0), number(1), number(2)}, number(3), number(4)});
             }
         char title[128];
-        std::snprintf(title, sizeof title, "%s: %zu spheres, t = %.4g s", asked_.name.c_str(), spheres.size(), time());
+        std::snprintf(title, sizeof title, "%s: %zu %s%s, t = %.4g s", asked_.name.c_str(), spheres.size(),
+                      D == 2 && !run_type::scene::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s", time());
         sphere_picture(title, D == 3).write(path(".svg"), spheres, outlines(spheres));
     }
     /// Walls, as far as there are spheres; the edges of a box of three dimensions.
@@ -312,7 +313,7 @@ std::vector<entry> all_scenes() {
     }));
     all.push_back(scene("disks", "a gas of disks in two dimensions", 2e-4, 20000, 4096, [](const request& r) {
         return disks_scene<>{
-            .law = hooke<>{{k}}, .time_step = r.time_step, .per_edge = edge_of(r.size, 2), .fraction = 0.3};
+            .law = hooke<>{{k}}, .time_step = r.time_step, .per_edge = edge_of(r.size, 2), .fraction = 0.15};
     }));
     all.push_back(scene("settle", "spheres that fall on a floor and settle", 2e-4, 60000, 10000, [](const request& r) {
         // As wide as it is deep, and as high as the standard one is to its width.

@@ -8,6 +8,7 @@
 #include <tsubu/dem/references.hpp>
 #include <tsubu/dem/scenes/gas.hpp>
 #include <tsubu/dem/scenes/settle.hpp>
+#include <tsubu/dem/stability.hpp>
 
 #include <algorithm>  // std::max
 #include <cmath>      // std::cos, std::exp, std::sin, std::sqrt
@@ -111,8 +112,8 @@ gas_scene<hooke<>, Integrator, Number> small_gas(double steps_per_contact) {
 }
 template <class Integrator, class Number = double>
 void drift(row_reporter& report, extent how_much) {
-    // Some collisions win energy, others lose it: what a time unit changes, rms over several of them.
-    const int windows = how_much == extent::quick ? 3 : how_much == extent::standard ? 6 : 40;
+    // Some collisions win energy, others lose it: what a quarter of a time unit changes, rms over many.
+    const int windows = how_much == extent::quick ? 16 : how_much == extent::standard ? 24 : 160;
     const int last = how_much == extent::quick ? 4 : 6;
     for (int k = 0; k <= last; ++k) {
         const double n = 5 * std::pow(2, 0.5 * k) + 0.37;
@@ -125,7 +126,7 @@ void drift(row_reporter& report, extent how_much) {
             double before = first;
             double sum = 0;
             for (int window = 0; window < windows; ++window) {
-                gas->steps(static_cast<std::size_t>(1 / scene.time_step));
+                gas->steps(static_cast<std::size_t>(0.25 / scene.time_step));
                 const double after = kinetic_energy(*gas) + elastic_energy(*gas);
                 sum += (after - before) * (after - before) / (first * first);
                 before = after;
@@ -205,6 +206,10 @@ void cliff(row_reporter& report, extent how_much) {
             fields.emplace_back("coordination", coordination_number(*bed));
             fields.emplace_back("height", mean_position(*bed)[2]);
             fields.emplace_back("kinetic", kinetic_energy(*bed) / double(scene.count()));
+            // The bound of the greatest frequency, with the damping of the half step.
+            const double zeta = 50 / (2 * std::sqrt(2 * 2e5));
+            if (step < 0.55)
+                fields.emplace_back("limit", 2 * (std::sqrt(1 + zeta * zeta) - zeta) / greatest_frequency(*bed) / unit);
             fields.emplace_back("nanoseconds_per_second", 1e9 * seconds / duration / double(scene.count()));
         } catch (const tsubu::input_error&) {  // particles have left the box, or were faster than lists
             fields.emplace_back("kinetic", lost);

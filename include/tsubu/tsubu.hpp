@@ -15,6 +15,7 @@
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/threads.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
 
 #include <tsubu/id/adaptive_storage.hpp>

@@ -62,8 +62,8 @@ Storage limited() {
 constexpr std::size_t many_rebuilds = 10'000;
 constexpr std::size_t some_rebuilds = 1'500;
 #else
-constexpr std::size_t many_rebuilds = 2'000;
-constexpr std::size_t some_rebuilds = 300;
+constexpr std::size_t many_rebuilds = 800;
+constexpr std::size_t some_rebuilds = 150;
 #endif
 
 TEMPLATE_LIST_TEST_CASE("thousands of random rebuilds agree with a sorted array",

@@ -79,7 +79,7 @@ inline void sort_by_rank(message_memory::array<leaver>& all, std::size_t ranks, 
     }
 }
 
-template <class Store, class Parts>
+template <class Store, class Parts, class Carried>
 class migrator {
     using frame_type = frame<Store, typename Parts::box_type>;
     using position_type = typename Parts::position_type;
@@ -118,7 +118,7 @@ public:
     }
     /// Packs the leavers of each rank: their number, then they.
     void pack_leavers() {
-        constexpr typename Store::fields_type set{};
+        constexpr Carried set{};
         indices_ = memory_.take<index_t>(leavers_.size());
         for (std::size_t k = 0; k < leavers_.size(); ++k) indices_[k] = leavers_[k].index;
         std::size_t words = 0;
@@ -141,7 +141,7 @@ public:
     [[nodiscard]] std::span<const index_t> lost() const noexcept { return {lost_.data(), lost_.size()}; }
 
     void unpack_arrivals(const mailbox& came) {
-        constexpr typename Store::fields_type set{};
+        constexpr Carried set{};
         std::size_t count = 0;
         for (const auto& [from, words] : came) count += static_cast<std::size_t>(words[0]);
         auto first = store_.add_owned(count, set);
@@ -337,21 +337,28 @@ private:
 ///
 /// A position beyond a periodic face is wrapped; a field `image` counts the periods, and fields that turn with images
 /// are turned. Those that stay are not touched; those that come are added by rank of their sender, and the last ones
-/// take the places of those that have gone. What goes is all fields of the store.
+/// take the places of those that have gone. What goes is all fields of the store, or those that are named; the others are
+/// zeros where a particle comes.
 ///
 /// @param on_lost  what becomes of particles beyond faces that are not periodic: refuse_lost, clamp_lost, collect_lost
+/// @param carried  the fields<...> that go along: without those that are computed anew before they are read
 /// @return what this rank has sent and received
 /// @throws on all ranks or none: input_error if a position is not finite, or has left the box and may not (the message
 ///         names ids and positions), or the ranks are not those of the decomposition; limit_error, or std::bad_alloc on
 ///         the rank itself, where memory is short. Every particle is on the rank where it was then, ghosts are cleared;
 ///         those that had left may be wrapped.
 /// Complexity: O(n) to see who leaves, all else by the leavers. 8 bytes to each rank that gets any, and their fields.
-/// Collective: yes; the same decomposition on all ranks. One reduction, another if a particle leaves; one message to
+/// Collective: yes; the same decomposition and fields on all ranks. One reduction, another if a particle leaves; one message to
 ///             each rank that gets any.
-template <class Store, decomposition Parts, transport Transport, lost_policy OnLost = refuse_lost>
-migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}) {
+template <class Store, decomposition Parts, transport Transport, lost_policy OnLost = refuse_lost,
+          class Carried = typename Store::fields_type>
+migration migrate(Store& store, const Parts& parts, Transport& on, OnLost on_lost = {}, Carried = {}) {
+    static_assert(difference_of<Carried, typename Store::fields_type>::count == 0,
+                  "migrate is to carry a field that the store has not");
+    static_assert(Carried::template has<typename detail::frame<Store, typename Parts::box_type>::position_field>,
+                  "migrate carries the position, which says where a particle belongs");
     store.clear_ghosts();
-    detail::migrator<Store, Parts> work(store, parts, on.rank(), on.memory());
+    detail::migrator<Store, Parts, Carried> work(store, parts, on.rank(), on.memory());
     constexpr bool collects = detail::collects_lost<OnLost>;
     enum : std::size_t { sent, lost };
     agreement<2> before(on.rank());

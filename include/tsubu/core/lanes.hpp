@@ -8,7 +8,8 @@
 #include <cmath>        // std::sqrt
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t
-#include <type_traits>  // std::conditional_t
+#include <type_traits>  // std::conditional_t, std::integral_constant
+#include <utility>      // std::index_sequence, std::make_index_sequence
 
 #if defined(__SSE2__)
 #include <emmintrin.h>  // _mm_movemask_pd, _mm_movemask_ps, _mm_sqrt_pd, _mm_sqrt_ps
@@ -70,7 +71,24 @@ struct lanes {
     lanes() = default;
     [[gnu::always_inline]] lanes(const native& all) noexcept : value(all) {}
     /// The same number in each.
-    [[gnu::always_inline]] lanes(Real each) noexcept : value(native{} + each) {}
+    [[gnu::always_inline]] lanes(Real each) noexcept : lanes(of([each](auto) { return each; })) {}
+
+    /// Lane l is make(l), l a constant: put together in registers, where one write for each lane would go through memory.
+    template <class Make>
+    [[nodiscard, gnu::always_inline]] static lanes of(Make&& make) {
+        return [&]<std::size_t... L>(std::index_sequence<L...>) __attribute__((always_inline)) {
+            return lanes(native{make(std::integral_constant<std::size_t, L>{})...});
+        }
+        (std::make_index_sequence<count>{});
+    }
+
+    /// `count` numbers that follow each other in memory, and to there.
+    [[nodiscard, gnu::always_inline]] static lanes load(const Real* from) noexcept {
+        native value;
+        __builtin_memcpy(&value, from, sizeof(value));
+        return value;
+    }
+    [[gnu::always_inline]] void store(Real* to) const noexcept { __builtin_memcpy(to, &value, sizeof(value)); }
 
     [[nodiscard, gnu::always_inline]] Real operator[](std::size_t l) const noexcept { return value[l]; }
     [[gnu::always_inline]] void set(std::size_t l, Real to) noexcept { value[l] = to; }
@@ -153,6 +171,14 @@ template <class Real>
 }
 [[nodiscard, gnu::always_inline]] inline double sqrt(double a) noexcept { return std::sqrt(a); }
 [[nodiscard, gnu::always_inline]] inline float sqrt(float a) noexcept { return std::sqrt(a); }
+
+/// Whether any lane is chosen.
+[[nodiscard, gnu::always_inline]] inline bool any(bool chosen) noexcept { return chosen; }
+template <class Mask>
+    requires requires(const Mask& chosen) { chosen.bits(); }
+[[nodiscard, gnu::always_inline]] inline bool any(const Mask& chosen) noexcept {
+    return chosen.bits() != 0;
+}
 
 /// The smaller and the greater of two, lane by lane.
 template <class Real>

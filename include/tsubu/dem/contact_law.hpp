@@ -99,7 +99,7 @@ public:
     static constexpr std::size_t springs = tangential_type::template springs<D> + rolling_type::template springs<D>;
 
     template <class Q>
-    using partner_reads = union_of<fields<Q::position>,
+    using partner_reads = union_of<typename Q::place_fields,
                                    union_of<std::conditional_t<needs_velocity, fields<Q::velocity>, fields<>>,
                                             std::conditional_t<turns, fields<Q::angular_velocity>, fields<>>>>;
     template <class Q>
@@ -148,20 +148,20 @@ public:
         result.force = scaled<D, Real>(at.normal, along);
         if constexpr (turns) {
             constexpr auto own = tangential_type::template springs<D>;
-            vec<own, Real> spring;
-            for (std::size_t k = 0; k < own; ++k) spring[k] = memory[k];
+            auto spring =
+                vector_of<own, Real>([&](auto k) __attribute__((always_inline)) { return memory[k]; });
             const auto friction = tangential_.template force<D, Real>(
                 at, repulsion, normal_.damping(at.overlap, at.mass, at.radius), spring);
-            for (std::size_t k = 0; k < own; ++k) memory[k] = spring[k];
+            unrolled<own>([&](auto k) __attribute__((always_inline)) { memory[k] = spring[k]; });
             result.force = plus<D, Real>(result.force, friction);
             result.twist = torque_of(at.normal, friction);
             if constexpr (rolling_type::turns) {
                 constexpr auto spins = contact<D, Real>::spins;
-                vec<spins, Real> turn;
-                for (std::size_t k = 0; k < spins; ++k) turn[k] = memory[own + k];
+                auto turn = vector_of<spins, Real>(
+                    [&](auto k) __attribute__((always_inline)) { return memory[own + k]; });
                 result.rolling = rolling_.template torque<D, Real>(at, repulsion,
                                                                    normal_.stiffness(at.overlap, at.radius), turn);
-                for (std::size_t k = 0; k < spins; ++k) memory[own + k] = turn[k];
+                unrolled<spins>([&](auto k) __attribute__((always_inline)) { memory[own + k] = turn[k]; });
             }
         }
         return result;

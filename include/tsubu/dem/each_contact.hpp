@@ -36,7 +36,7 @@ void each_touching(const columns<Scene>& of, std::span<const index_pair> pairs, 
         vec<D, double> d;
         double square = 0;
         for (std::size_t k = 0; k < D; ++k) {
-            d[k] = static_cast<double>(of.apart(k, of.x[i][k], of.x[j][k]));
+            d[k] = static_cast<double>(of.apart(k, i, j));
             square += d[k] * d[k];
         }
         const double r_i = static_cast<double>(of.radius_at(i));

@@ -102,7 +102,7 @@ struct hertz_normal {
     void check() const { detail::check_positive("effective modulus", modulus, "Pa"); }
     template <class Real>
     [[nodiscard, gnu::always_inline]] Real elastic(const Real& overlap, const Real& radius) const noexcept {
-        return overlap * sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(4 * modulus / 3));
+        return overlap * sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus));
     }
     template <class Real>
     [[nodiscard]] Real stiffness(const Real& overlap, const Real& radius) const noexcept {
@@ -188,7 +188,7 @@ struct hertz_tsuji_normal {
                                                    const Real& radius) const noexcept {
         // sqrt(m* K) d^(1/4), K = 4/3 E* sqrt(R*)
         return Real(static_cast<number_of<Real>>(alpha)) *
-               sqrt(mass * Real(static_cast<number_of<Real>>(4 * modulus / 3)) * sqrt(radius * overlap));
+               sqrt(mass * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus)) * sqrt(radius * overlap));
     }
 };
 static_assert(normal_law<hertz_tsuji_normal>);

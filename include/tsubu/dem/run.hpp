@@ -94,6 +94,7 @@ public:
     void steps(std::size_t count) {
         if (!is_started_) start();
         Integrator::advance(*this, how_.time_step, count);
+        near_.check_uses();
     }
     /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
     void keep_memory() { near_.keep_memory(store_); }
@@ -114,7 +115,7 @@ public:
     /// From particle j to i, the shorter way round on a lattice [m].
     [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
         vec<D, double> d;
-        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, at_.x[i][k], at_.x[j][k]));
+        for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, i, j));
         return d;
     }
     [[nodiscard]] double mass(index_t i) const noexcept { return static_cast<double>(at_.mass_at(i)); }
@@ -184,7 +185,7 @@ private:
         all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
-        near_.renew(store_);
+        near_.renew(store_, typename scene::restart_fields{});
         at_ = columns_type(store_, box(), bodies());
         look();
         if (finds_forces) {

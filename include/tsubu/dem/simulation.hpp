@@ -120,10 +120,11 @@ struct simulation {
 
     /// What the motion itself reads and changes.
     using motion_fields =
-        union_of<fields<quantities_type::position, quantities_type::velocity, quantities_type::force>,
+        union_of<union_of<typename quantities_type::place_fields,
+                          fields<quantities_type::velocity, quantities_type::force>>,
                  std::conditional_t<turns, fields<quantities_type::angular_velocity, quantities_type::torque>, fields<>>>;
     using moved_fields =
-        union_of<fields<quantities_type::position, quantities_type::velocity>,
+        union_of<union_of<typename quantities_type::place_fields, fields<quantities_type::velocity>>,
                  std::conditional_t<turns, fields<quantities_type::angular_velocity>, fields<>>>;
     /// What each force evaluation writes anew.
     using summed_fields = union_of<fields<quantities_type::force>,

@@ -30,9 +30,9 @@ struct spring {
 struct springs {
     static constexpr auto role = model_role::springs;
     template <class Q>
-    using reads = fields<Q::position, tsubu::bonds>;
+    using reads = union_of<typename Q::place_fields, fields<tsubu::bonds>>;
     template <class Q>
-    using partner_reads = fields<Q::position>;
+    using partner_reads = typename Q::place_fields;
     template <class Q>
     using writes = fields<Q::force>;
 

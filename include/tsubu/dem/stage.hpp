@@ -46,7 +46,8 @@ template <staged_scene Scene, transport Transport>
         scene.models());
     const auto all = scene.count();
     const auto share = [&](std::uint64_t rank) { return all / on.ranks() * rank + all % on.ranks() * rank / on.ranks(); };
-    made->particles().reserve(static_cast<std::size_t>(share(on.rank() + 1) - share(on.rank())));
+    const auto mine = static_cast<std::size_t>(share(on.rank() + 1) - share(on.rank()));
+    made->particles().reserve(mine + mine / 8);  // ghosts too: growing would double what is held
     for (auto n = share(on.rank()); n < share(on.rank() + 1); ++n) scene.place(made->particles(), box, n);
     made->start();
     return made;

@@ -75,16 +75,20 @@ template <std::size_t D, class Real>
     const auto slip = slip_of<D, Real>(at);
     vec<D, Real> longer = plus<D, Real>(spring, scaled<D, Real>(slip, at.time_step));
     longer = tangential<D, Real>(longer, at.normal);  // the contact has turned since
-    vec<D, Real> pull;
-    for (std::size_t k = 0; k < D; ++k) pull[k] = -(stiffness * longer[k] + viscosity * slip[k]);
-    const Real strength = sqrt(dot<D, Real>(pull, pull));
+    auto pull = vector_of<D, Real>(
+        [&](auto k) __attribute__((always_inline)) { return -(stiffness * longer[k] + viscosity * slip[k]); });
+    spring = longer;
+    const Real square = dot<D, Real>(pull, pull);
     const Real most = mu * greatest(normal_force, -normal_force);
-    const auto slides = strength > most;
-    const Real share = select(slides, most / strength, Real(1));
-    // What the spring holds is the force that is left, less what the dashpot gives.
-    for (std::size_t k = 0; k < D; ++k) {
-        pull[k] = pull[k] * share;
-        spring[k] = select(slides, -((pull[k] + viscosity * slip[k]) / stiffness), longer[k]);
+    const auto slides = square > most * most;
+    if (any(slides)) {  // few do where grains rest, and the root and the quotients are dear
+        const Real one(static_cast<number_of<Real>>(1));
+        pull = scaled<D, Real>(pull, select(slides, most / sqrt(square), one));
+        // What the spring holds is the force that is left, less what the dashpot gives.
+        const Real softness = one / stiffness;
+        spring = vector_of<D, Real>([&](auto k) __attribute__((always_inline)) {
+            return select(slides, -((pull[k] + viscosity * slip[k]) * softness), longer[k]);
+        });
     }
     return pull;
 }

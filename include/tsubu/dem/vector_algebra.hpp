@@ -4,35 +4,41 @@
 #pragma once
 
 #include <tsubu/core/lanes.hpp>
+#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
 
-#include <cstddef>  // std::size_t
+#include <cstddef>      // std::size_t
+#include <type_traits>  // std::integral_constant
+#include <utility>      // std::index_sequence, std::make_index_sequence
 
 namespace tsubu::dem {
 
+/// The vector whose component k is make(k), k a constant.
+template <std::size_t D, class Real, class Make>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> vector_of(Make&& make) {
+    return [&]<std::size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
+        return vec<D, Real>{make(std::integral_constant<std::size_t, K>{})...};
+    }
+    (std::make_index_sequence<D>{});
+}
 template <std::size_t D, class Real>
 [[nodiscard, gnu::always_inline]] inline Real dot(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
     Real sum = a[0] * b[0];
-    for (std::size_t k = 1; k < D; ++k) sum = sum + a[k] * b[k];
+    if constexpr (D > 1) sum = sum + a[1] * b[1];
+    if constexpr (D > 2) sum = sum + a[2] * b[2];
     return sum;
 }
 template <std::size_t D, class Real>
 [[nodiscard, gnu::always_inline]] inline vec<D, Real> scaled(const vec<D, Real>& a, const Real& by) noexcept {
-    vec<D, Real> result;
-    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] * by;
-    return result;
+    return vector_of<D, Real>([&](auto k) __attribute__((always_inline)) { return a[k] * by; });
 }
 template <std::size_t D, class Real>
 [[nodiscard, gnu::always_inline]] inline vec<D, Real> plus(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
-    vec<D, Real> result;
-    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] + b[k];
-    return result;
+    return vector_of<D, Real>([&](auto k) __attribute__((always_inline)) { return a[k] + b[k]; });
 }
 template <std::size_t D, class Real>
 [[nodiscard, gnu::always_inline]] inline vec<D, Real> minus(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
-    vec<D, Real> result;
-    for (std::size_t k = 0; k < D; ++k) result[k] = a[k] - b[k];
-    return result;
+    return vector_of<D, Real>([&](auto k) __attribute__((always_inline)) { return a[k] - b[k]; });
 }
 /// The part of a that is at right angles to a unit vector.
 template <std::size_t D, class Real>

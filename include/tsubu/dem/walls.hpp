@@ -29,7 +29,7 @@ struct plane {
 struct walls {
     static constexpr auto role = model_role::walls;
     template <class Q>
-    using reads = fields<Q::position>;
+    using reads = typename Q::place_fields;
     template <class Q>
     using partner_reads = fields<>;
     template <class Q>

@@ -7,13 +7,14 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/neighbor/detail/cells.hpp>
 #include <tsubu/neighbor/detail/growing.hpp>
+#include <tsubu/neighbor/detail/list_checks.hpp>
 #include <tsubu/neighbor/reach.hpp>
 
-#include <algorithm>    // std::max, std::min
-#include <cstddef>      // std::size_t
-#include <span>         // std::span
-#include <tuple>        // std::tuple_size_v
-#include <type_traits>  // std::remove_cvref_t
+#include <algorithm>  // std::max, std::min
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint32_t
+#include <limits>     // std::numeric_limits
+#include <span>       // std::span
 
 namespace tsubu {
 
@@ -26,59 +27,67 @@ struct index_pair {
 /// Which particles are near each other? Each pair once; of those across a border each rank has one.
 ///
 ///     tsubu::pair_list list;
-///     list.build(g[tsubu::position<3>], g.owned_count(), tsubu::same_reach(cutoff + skin));
+///     list.build(g[tsubu::position<3>], g.owned_count(), tsubu::same_reach{cutoff + skin});
 ///     for (const auto [i, j] : list.pairs()) ...
+///
+/// Near are two of which the distance is less than the reach. Pairs follow the order of the particles as far as those
+/// that are near each other have near indices: sort particles along a curve. The order depends on the input alone.
 ///
 /// Choose it where what i does to j is the opposite of what j does to i. Do not where each particle gathers from all of
 /// its neighbours, or threads write to one particle each: neighbor_list.
 ///
-/// Bytes:   8 per pair; while it is built 8 D + 8 per particle and 4 to 20 for cells more.
+/// Bytes:   8 to 9 per pair; while it is built 8 D + 12 per particle, and 4 to 20 for cells.
 /// Threads: many readers or one writer.
 class pair_list {
 public:
-    /// @param x      positions of the owned particles, then of the ghosts [m]: size() and x[i][k]
+    /// @param x      positions of the owned particles, then of the ghosts [m]
     /// @param reach  a pair_reach: up to which distance a pair is near
     /// @throws input_error if a position is not finite, or the reach is not a positive length; limit_error at 2^32
     ///         pairs. The list is as before then.
-    /// Complexity: O(N) if the density is bounded.
-    template <class Positions, pair_reach Reach>
+    /// Complexity: O(N) if the density is bounded, and the box of all particles not much larger than what they fill.
+    template <point_positions Positions, pair_reach Reach>
     void build(const Positions& x, std::size_t owned, const Reach& reach) {
-        constexpr std::size_t D = std::tuple_size_v<std::remove_cvref_t<decltype(x[0])>>;
-        using real = typename std::remove_cvref_t<decltype(x[0])>::value_type;
-        const auto cutoff = static_cast<real>(reach.greatest());
-        detail::check_reach("pair_list::build", reach.greatest());
-        const detail::cells<D, real> sorted(x, cutoff);
-        const auto near = reach.template sorted<real>(sorted.origin(), sorted.size());
-        detail::growing<index_pair> found((std::max)(pairs_.size(), 4 * owned + 64));
-        const auto* const origin = sorted.origin();
+        using real = detail::number_of_position<Positions>;
+        constexpr auto where = "pair_list::build";
+        const auto count = static_cast<std::size_t>(x.size());
+        const double greatest = reach.greatest(count);
+        detail::check_list<real>(where, count, owned, greatest);
+        const detail::cells<detail::dimension_of<detail::position_in<Positions>>, real> sorted(
+            where, x, static_cast<real>(greatest));
+        detail::growing<index_pair> found(detail::room_after((std::max)(count_, owned)),
+                                          (std::numeric_limits<std::uint32_t>::max)(), where);
         const auto first_ghost = static_cast<index_t>(owned);
-        sorted.each_half([&](std::size_t a, const auto& stretches) {
-            std::size_t most = 0;
-            for (const auto [first, last] : stretches) most += last - first;
-            auto* to = found.room(most);
-            const auto mine = origin[a];
-            for (const auto [first, last] : stretches)
-                for (auto b = first; b < last; ++b) {
-                    real square = 0;
-                    for (std::size_t k = 0; k < D; ++k) {
-                        const auto d = sorted.along(k)[a] - sorted.along(k)[b];
-                        square += d * d;
-                    }
-                    // Branch-free: whether two are near cannot be predicted.
-                    const auto i = (std::min)(mine, origin[b]);
-                    *to = {i, (std::max)(mine, origin[b])};
-                    to += static_cast<int>(square < near(a, b)) & static_cast<int>(i < first_ghost);
-                }
+        // Which of two is an owned one, and has the lower index, is asked of many pairs in one loop.
+        constexpr std::size_t batch = 512;
+        std::size_t settled = 0;
+        const auto settle = [&] {
+            auto* const first = found.data();
+            auto* to = first + settled;
+            for (const auto* from = to; from != first + found.size(); ++from) {
+                const auto [a, b] = *from;
+                const auto i = (std::min)(a, b);
+                *to = {i, (std::max)(a, b)};
+                to += i < first_ghost ? 1 : 0;
+            }
             found.up_to(to);
+            settled = found.size();
+        };
+        sorted.each_half([&](const auto& near, std::size_t k, std::size_t begin) {
+            const auto a = near.index(k);
+            found.up_to(near.near(k, begin, reach, found.room(near.most()), [a](index_t b) { return index_pair{a, b}; }));
+            if (found.size() - settled >= batch) settle();
         });
+        settle();
+        count_ = found.size();
         pairs_ = found.take();
     }
-    [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return {pairs_.data(), pairs_.size()}; }
-    [[nodiscard]] std::size_t size() const noexcept { return pairs_.size(); }
+    [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return {pairs_.data(), count_}; }
+    [[nodiscard]] std::size_t size() const noexcept { return count_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return pairs_.memory_bytes(); }
 
 private:
     buffer<index_pair> pairs_;
+    std::size_t count_ = 0;
 };
 
 }  // namespace tsubu

@@ -3,25 +3,27 @@
 /// pair_reach: up to which distance two particles are neighbours.
 #pragma once
 
-#include <tsubu/core/buffer.hpp>
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/domain/interval.hpp>
 
 #include <algorithm>  // std::max
-#include <concepts>   // std::convertible_to
+#include <concepts>   // std::same_as, std::convertible_to
 #include <cstddef>    // std::size_t
 #include <span>       // std::span
-#include <utility>    // std::move
+#include <string>     // std::to_string
 
 namespace tsubu {
 
 /// Up to which distance two particles are neighbours.
-///  1. greatest() is at least the distance of any pair [m];
-///  2. sorted<Real>(origin, count)(a, b) is the square of the distance of particles origin[a] and origin[b] [m^2], and
-///     depends on no order of the two.
+///  1. greatest(N) is at least the distance of any pair of particles 0 .. N-1 [m];
+///  2. square<Real>(i, j) is the square of the distance of particles i and j [m^2]; it is that of j and i.
 template <class Reach>
-concept pair_reach = requires(const Reach& reach, const index_t* origin) {
-    { reach.greatest() } -> std::convertible_to<double>;
-    { reach.template sorted<double>(origin, std::size_t{})(std::size_t{}, std::size_t{}) } -> std::convertible_to<double>;
+concept pair_reach = requires(const Reach& reach, index_t i) {
+    { reach.greatest(std::size_t{}) } -> std::convertible_to<double>;
+    { reach.template square<double>(i, i) } noexcept -> std::same_as<double>;
+    { reach.template square<float>(i, i) } noexcept -> std::same_as<float>;
 };
 
 /// The same distance for all pairs.
@@ -31,12 +33,11 @@ concept pair_reach = requires(const Reach& reach, const index_t* origin) {
 struct same_reach {
     double distance;  ///< [m]
 
-    [[nodiscard]] double greatest() const noexcept { return distance; }
+    [[nodiscard]] double greatest(std::size_t) const noexcept { return distance; }
     template <class Real>
-    [[nodiscard]] auto sorted(const index_t*, std::size_t) const noexcept {
-        return [square = static_cast<Real>(distance) * static_cast<Real>(distance)](std::size_t, std::size_t) {
-            return square;
-        };
+    [[nodiscard, gnu::always_inline]] Real square(index_t, index_t) const noexcept {
+        const auto length = static_cast<Real>(distance);
+        return length * length;
     }
 };
 static_assert(pair_reach<same_reach>);
@@ -48,22 +49,32 @@ static_assert(pair_reach<same_reach>);
 template <class Radius = double>
 struct radii_reach {
     std::span<const Radius> radii;  ///< of all particles, owned and ghosts [m]
-    double skin;                    ///< [m]
+    double skin;                    ///< at least 0 [m]
 
-    [[nodiscard]] double greatest() const noexcept {
+    /// @throws input_error if there are not as many radii, or one is no length of at least 0, or the skin is negative.
+    [[nodiscard]] double greatest(std::size_t count) const {
+        if (radii.size() < count)
+            detail::raise<input_error>("radii_reach",
+                                       std::to_string(radii.size()) + " radii of " + std::to_string(count) + " particles",
+                                       "give those of the ghosts too");
+        if (!(skin >= 0))
+            detail::raise<input_error>("radii_reach", "a skin of " + detail::shown(skin) + " m", "give at least 0");
         Radius most = 0;
-        for (const auto r : radii) most = (std::max)(most, r);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!(radii[i] >= 0) || !detail::is_finite(radii[i]))
+                detail::raise<input_error>("radii_reach",
+                                           "the radius of particle " + std::to_string(i) + " is " +
+                                               detail::shown(radii[i]) + " m",
+                                           "give a finite length of at least 0");
+            most = (std::max)(most, radii[i]);
+        }
         return 2 * static_cast<double>(most) + skin;
     }
     template <class Real>
-    [[nodiscard]] auto sorted(const index_t* origin, std::size_t count) const {
-        buffer<Real> half(count, {});  // of the distance: a radius and half of the skin
-        for (std::size_t a = 0; a < count; ++a)
-            half[a] = static_cast<Real>(radii[static_cast<std::size_t>(origin[a])]) + static_cast<Real>(skin / 2);
-        return [half = std::move(half)](std::size_t a, std::size_t b) {
-            const auto sum = half[a] + half[b];
-            return sum * sum;
-        };
+    [[nodiscard, gnu::always_inline]] Real square(index_t i, index_t j) const noexcept {
+        const auto sum = static_cast<Real>(radii[static_cast<std::size_t>(i)]) +
+                         static_cast<Real>(radii[static_cast<std::size_t>(j)]) + static_cast<Real>(skin);
+        return sum * sum;
     }
 };
 static_assert(pair_reach<radii_reach<>>);

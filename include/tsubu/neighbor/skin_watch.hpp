@@ -8,7 +8,7 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/domain/interval.hpp>
 
-#include <cstdint>  // std::uint64_t
+#include <limits>  // std::numeric_limits
 #include <span>     // std::span
 #include <string>   // std::to_string
 
@@ -40,13 +40,16 @@ public:
     [[nodiscard]] double skin() const noexcept { return skin_; }
     /// How far the fastest particles have gone since restart, at most [m].
     [[nodiscard]] double travelled() const noexcept { return travelled_; }
-    /// No particle goes farther than this in what follows, until the next call [m].
-    void travel(double distance) noexcept { travelled_ += distance; }
+    /// No particle goes farther than this in what follows, until the next call; at least 0 [m].
+    void travel(double distance) noexcept {
+        travelled_ += distance;
+        // The greatest of several ranks may pass over what is no number.
+        if (!(travelled_ >= 0)) travelled_ = std::numeric_limits<double>::infinity();
+    }
     /// Neighbours have been found.
     void restart() noexcept {
         travelled_ = used_ = 0;
         unchecked_ = 0;
-        has_uses_ = false;
     }
     /// Whether to find neighbours before they are used again. Each call that answers no is a use of the list.
     /// @throws on all ranks: input_error if it was used after twice the way was longer than the skin.
@@ -60,18 +63,27 @@ public:
         unchecked_ = 0;
         double both[2] = {travelled_, used_};
         on.reduce(std::span<double>(both), reduction::greatest);
-        if (has_uses_ && !(2 * both[1] <= skin_)) refuse_late(both[1]);
+        refuse_if_late(both[1]);
         if (!(2 * both[0] <= skin_)) return true;
         use();
         return false;
     }
+    /// To be called where no is_due follows that looks: at the end of a run of steps.
+    /// @throws on all ranks: input_error if the list was used after twice the way was longer than the skin.
+    /// Collective: one reduction.
+    template <transport Transport>
+    void check(Transport& on) const {
+        double used = used_;
+        on.reduce(std::span<double>(&used, 1), reduction::greatest);
+        refuse_if_late(used);
+    }
 
 private:
-    void use() noexcept {
-        used_ = travelled_;
-        has_uses_ = true;
+    void use() noexcept { used_ = travelled_; }
+    void refuse_if_late(double travelled) const {
+        if (!(2 * travelled <= skin_)) refuse_late(travelled);
     }
-    [[noreturn]] void refuse_late(double travelled) const {
+    [[noreturn, gnu::cold, gnu::noinline]] void refuse_late(double travelled) const {
         detail::raise<input_error>("skin_watch",
                                    "neighbours were used after the fastest particles had gone " +
                                        detail::shown(travelled) + " m each, more than half of the skin of " +
@@ -84,9 +96,8 @@ private:
     double skin_;
     unsigned every_;
     unsigned unchecked_ = 0;
-    bool has_uses_ = false;
     double travelled_ = 0;
-    double used_ = 0;
+    double used_ = 0;  // how far they had gone when the list was used last
 };
 
 }  // namespace tsubu

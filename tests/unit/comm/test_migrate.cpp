@@ -157,3 +157,23 @@ TEST_CASE("1e5 steps of random motion lose nothing", "[comm][migrate][.slow]") {
         });
     });
 }
+TEST_CASE("only the fields that are named go along", "[comm][migrate]") {
+    using store_type =
+        tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<1>, tsubu::force<1>, tsubu::mass>>;
+    const tsubu::domain<1> box({0}, {1}, {.periodic = {true}});
+    const tsubu::brick_decomposition<1> parts(box, 2);
+    check_on_ranks(2, [&](auto& on, verdict& seen) {
+        store_type store;
+        // One that goes to the other rank, and one that stays.
+        const double mine = on.rank() == 0 ? 0.25 : 0.75;
+        store.push_back(tsubu::id = on.rank(), tsubu::position<1> = {1 - mine}, tsubu::force<1> = {7}, tsubu::mass = 3);
+        store.push_back(tsubu::id = 2 + on.rank(), tsubu::position<1> = {mine}, tsubu::force<1> = {7}, tsubu::mass = 3);
+        tsubu::migrate(store, parts, on, tsubu::refuse_lost{}, tsubu::fields<tsubu::id, tsubu::position<1>, tsubu::mass>{});
+        seen(store.size() == 2, "one comes for the one that goes");
+        for (std::size_t i = 0; i < store.size(); ++i) {
+            const bool has_come = store[tsubu::id][i] < 2;
+            seen(store[tsubu::force<1>][i][0] == (has_come ? 0 : 7), "a field that is not carried is zero");
+            seen(store[tsubu::mass][i] == 3, "a field that is carried arrives");
+        }
+    });
+}

@@ -38,6 +38,7 @@ struct columns {
     using spin_type = vec<D == 2 ? 1 : 3, real>;
 
     position_type* x = nullptr;
+    vector_type* offset = nullptr;  // from x, where that is a cell
     vector_type* v = nullptr;
     vector_type* f = nullptr;
     spin_type* w = nullptr;  // angular velocity
@@ -46,7 +47,8 @@ struct columns {
     const double* mass = nullptr;
     real radius_of_all{};
     real mass_of_all{};
-    std::array<double, D> step{};  // of a lattice [m]
+    std::array<double, D> step{};              // of a lattice [m]
+    std::array<double, D> steps_per_length{};  // [1/m]
     const typename Scene::box_type* box = nullptr;
 
     columns() = default;
@@ -56,6 +58,7 @@ struct columns {
           v(store[quantities::velocity].data()),
           f(store[quantities::force].data()),
           box(&where) {
+        if constexpr (quantities::has_offsets) offset = store[quantities::offset].data();
         if constexpr (Scene::turns) {
             w = store[quantities::angular_velocity].data();
             t = store[quantities::torque].data();
@@ -68,19 +71,27 @@ struct columns {
             mass = store[tsubu::mass].data();
         }
         if constexpr (is_lattice<coordinate>)
-            for (std::size_t k = 0; k < D; ++k) step[k] = where.along(k).length_of(1.0);
+            for (std::size_t k = 0; k < D; ++k) {
+                step[k] = where.along(k).length_of(1.0);
+                steps_per_length[k] = 1 / step[k];
+            }
     }
 
-    /// From b to a along axis k; on a lattice the shorter way round.
-    [[nodiscard, gnu::always_inline]] real apart(std::size_t k, const coordinate& a, const coordinate& b) const noexcept {
-        if constexpr (is_lattice<coordinate>)
-            return static_cast<real>(static_cast<double>(a - b) * step[k]);
+    /// From particle j to i along axis k; on a lattice the shorter way round.
+    [[nodiscard, gnu::always_inline]] real apart(std::size_t k, index_t i, index_t j) const noexcept {
+        if constexpr (quantities::has_offsets)
+            return static_cast<real>(x[i][k] - x[j][k]) * static_cast<real>(step[k]) + (offset[i][k] - offset[j][k]);
+        else if constexpr (is_lattice<coordinate>)
+            return static_cast<real>(static_cast<double>(x[i][k] - x[j][k]) * step[k]);
         else
-            return static_cast<real>(a - b);
+            return static_cast<real>(x[i][k] - x[j][k]);
     }
     [[nodiscard, gnu::always_inline]] vec<D, double> real_position(index_t i) const noexcept {
         vec<D, double> at;
-        for (std::size_t k = 0; k < D; ++k) at[k] = static_cast<double>(box->along(k).to_real(x[i][k]));
+        for (std::size_t k = 0; k < D; ++k) {
+            at[k] = static_cast<double>(box->along(k).to_real(x[i][k]));
+            if constexpr (quantities::has_offsets) at[k] += static_cast<double>(offset[i][k]);
+        }
         return at;
     }
     [[nodiscard, gnu::always_inline]] real radius_at(index_t i) const noexcept {

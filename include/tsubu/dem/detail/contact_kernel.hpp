@@ -5,6 +5,7 @@
 
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/dem/contact.hpp>
 #include <tsubu/dem/contact_law.hpp>
@@ -24,8 +25,10 @@ namespace tsubu::dem::detail {
 /// Whether neighbours touched: bit 0 in the last evaluation, bit 1 in the one before.
 using touch_state = std::uint8_t;
 
-// Of all neighbours some touch, which cannot be predicted: a first pass over a block finds them without a branch, a
-// second acts on as many at a time as there are lanes. What is left over of a block waits for the next.
+// Of all neighbours some touch, which cannot be predicted: a first pass over a block finds them without a branch. A
+// second computes normals and overlaps, as many at a time as there are lanes, and a third lets the law act: in passes of
+// their own the roots and quotients of one contact do not wait for those of the one before. What is left over of a block
+// waits for the next.
 
 /// Finds who touches, and lets the law act.
 template <class Scene>
@@ -39,7 +42,12 @@ class contact_kernel {
     using V = lanes<real>;
     static constexpr auto width = static_cast<unsigned>(V::count);
     using memory_type = vec<springs, real>;
-    static constexpr std::uint32_t block = 512;  // the lists of a block stay in the first-level cache
+    static constexpr std::uint32_t block = 256;  // what is noted of a block stays in the first-level cache
+    /// Where bodies touch, and how far they overlap.
+    struct shape {
+        vec<D, V> normal;
+        V overlap;
+    };
 
 public:
     contact_kernel(const columns<Scene>& of, const law_type& law, double time_step) noexcept
@@ -68,13 +76,12 @@ private:
         [[gnu::always_inline]] index_t second(std::uint32_t k) const noexcept { return pairs[k].j; }
         template <class Which>
         [[gnu::always_inline]] vec<D, V> apart(Which which) const noexcept {
-            vec<D, V> d;
-            for (unsigned l = 0; l < width; ++l) {
-                const auto& a = of.x[pairs[which(l)].i];
-                const auto& b = of.x[pairs[which(l)].j];
-                for (std::size_t k = 0; k < D; ++k) d[k].set(l, of.apart(k, a[k], b[k]));
-            }
-            return d;
+            return vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
+                return V::of([&](auto l) __attribute__((always_inline)) {
+                    const auto& pair = pairs[which(l)];
+                    return of.apart(k, pair.i, pair.j);
+                });
+            });
         }
         template <class Which>
         [[gnu::always_inline]] unsigned touching(Which which) const noexcept {
@@ -84,46 +91,60 @@ private:
         }
         template <class Which>
         [[gnu::always_inline]] V radii(Which which) const noexcept {
-            if constexpr (Scene::bodies_type::are_equal) {
+            if constexpr (Scene::bodies_type::are_equal)
                 return V(2 * of.radius_of_all);
-            } else {
-                V sum;
-                for (unsigned l = 0; l < width; ++l)
-                    sum.set(l, static_cast<real>(of.radius[pairs[which(l)].i] + of.radius[pairs[which(l)].j]));
-                return sum;
-            }
+            else
+                return V::of([&](auto l) __attribute__((always_inline)) {
+                    const auto& pair = pairs[which(l)];
+                    return static_cast<real>(of.radius[pair.i] + of.radius[pair.j]);
+                });
+        }
+        template <class Which>
+        [[gnu::always_inline]] shape find_shape(Which which) const noexcept {
+            const auto d = apart(which);
+            const V distance = sqrt(dot<D, V>(d, d));
+            return {scaled<D, V>(d, V(1) / distance), radii(which) - distance};
         }
         template <class Which>
         [[gnu::always_inline]] void measure(Which which, contact<D, V>& at) const noexcept {
-            const auto d = apart(which);
-            const V distance = sqrt(dot<D, V>(d, d));
-            at.normal = scaled<D, V>(d, V(1) / distance);
-            at.overlap = radii(which) - distance;
             if constexpr (Scene::bodies_type::are_equal) {
                 at.mass = V(of.mass_of_all / 2);
                 at.radius = V(of.radius_of_all / 2);
             } else {
-                for (unsigned l = 0; l < width; ++l) {
-                    const auto [i, j] = pairs[which(l)];
+                at.mass = V::of([&](auto l) __attribute__((always_inline)) {
+                    const auto& pair = pairs[which(l)];
                     // Reciprocals, so that one mass may be infinite.
-                    at.mass.set(l, static_cast<real>(1 / (1 / of.mass[i] + 1 / of.mass[j])));
-                    at.radius.set(l, static_cast<real>(of.radius[i] * of.radius[j] / (of.radius[i] + of.radius[j])));
-                }
+                    return static_cast<real>(1 / (1 / of.mass[pair.i] + 1 / of.mass[pair.j]));
+                });
+                at.radius = V::of([&](auto l) __attribute__((always_inline)) {
+                    const auto& pair = pairs[which(l)];
+                    const auto r_i = of.radius[pair.i];
+                    const auto r_j = of.radius[pair.j];
+                    return static_cast<real>(r_i * r_j / (r_i + r_j));
+                });
             }
             if constexpr (law_type::needs_velocity)
-                for (unsigned l = 0; l < width; ++l) {
-                    const auto& a = of.v[pairs[which(l)].i];
-                    const auto& b = of.v[pairs[which(l)].j];
-                    for (std::size_t k = 0; k < D; ++k) at.velocity[k].set(l, a[k] - b[k]);
-                }
-            if constexpr (turns)
-                for (unsigned l = 0; l < width; ++l) {
-                    const auto [i, j] = pairs[which(l)];
-                    for (std::size_t k = 0; k < spins; ++k) {
-                        at.sliding[k].set(l, of.radius_at(i) * of.w[i][k] + of.radius_at(j) * of.w[j][k]);
-                        at.turning[k].set(l, of.w[i][k] - of.w[j][k]);
-                    }
-                }
+                at.velocity = vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
+                    return V::of([&](auto l) __attribute__((always_inline)) {
+                        const auto& pair = pairs[which(l)];
+                        return of.v[pair.i][k] - of.v[pair.j][k];
+                    });
+                });
+            if constexpr (turns) {
+                at.sliding = vector_of<spins, V>([&](auto k) __attribute__((always_inline)) {
+                    return V::of([&](auto l) __attribute__((always_inline)) {
+                        const auto& pair = pairs[which(l)];
+                        return of.radius_at(pair.i) * of.w[pair.i][k] + of.radius_at(pair.j) * of.w[pair.j][k];
+                    });
+                });
+                if constexpr (law_type::rolling_type::turns)
+                    at.turning = vector_of<spins, V>([&](auto k) __attribute__((always_inline)) {
+                        return V::of([&](auto l) __attribute__((always_inline)) {
+                            const auto& pair = pairs[which(l)];
+                            return of.w[pair.i][k] - of.w[pair.j][k];
+                        });
+                    });
+            }
         }
     };
     /// A particle and a wall.
@@ -137,39 +158,41 @@ private:
         [[gnu::always_inline]] index_t second(std::uint32_t k) const noexcept { return pairs[k].j; }
         template <class Which>
         [[gnu::always_inline]] V distance(Which which) const noexcept {
-            V result;
-            for (unsigned l = 0; l < width; ++l) {
-                const auto [i, w] = pairs[which(l)];
-                result.set(l, static_cast<real>(planes[w].distance(of.real_position(i))));
-            }
-            return result;
+            return V::of([&](auto l) __attribute__((always_inline)) {
+                const auto& pair = pairs[which(l)];
+                return static_cast<real>(planes[pair.j].distance(of.real_position(pair.i)));
+            });
         }
         template <class Which>
         [[gnu::always_inline]] V radii(Which which) const noexcept {
-            V result;
-            for (unsigned l = 0; l < width; ++l) result.set(l, of.radius_at(pairs[which(l)].i));
-            return result;
+            return V::of([&](auto l) __attribute__((always_inline)) { return of.radius_at(pairs[which(l)].i); });
         }
         template <class Which>
         [[gnu::always_inline]] unsigned touching(Which which) const noexcept {
             return (distance(which) < radii(which)).bits();
         }
         template <class Which>
+        [[gnu::always_inline]] shape find_shape(Which which) const noexcept {
+            return {vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
+                        return V::of([&](auto l) __attribute__((always_inline)) {
+                            return static_cast<real>(planes[pairs[which(l)].j].normal[k]);
+                        });
+                    }),
+                    radii(which) - distance(which)};
+        }
+        template <class Which>
         [[gnu::always_inline]] void measure(Which which, contact<D, V>& at) const noexcept {
             at.radius = radii(which);
-            at.overlap = at.radius - distance(which);
-            for (unsigned l = 0; l < width; ++l) {
-                const auto [i, w] = pairs[which(l)];
-                at.mass.set(l, of.mass_at(i));
-                for (std::size_t k = 0; k < D; ++k)
-                    at.normal[k].set(l, static_cast<real>(planes[w].normal[k]));
-                if constexpr (law_type::needs_velocity)
-                    for (std::size_t k = 0; k < D; ++k) at.velocity[k].set(l, of.v[i][k]);
-                if constexpr (turns)
-                    for (std::size_t k = 0; k < spins; ++k) {
-                        at.sliding[k].set(l, of.radius_at(i) * of.w[i][k]);
-                        at.turning[k].set(l, of.w[i][k]);
-                    }
+            at.mass = V::of([&](auto l) __attribute__((always_inline)) { return of.mass_at(pairs[which(l)].i); });
+            if constexpr (law_type::needs_velocity)
+                at.velocity = vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
+                    return V::of([&](auto l) __attribute__((always_inline)) { return of.v[pairs[which(l)].i][k]; });
+                });
+            if constexpr (turns) {
+                at.turning = vector_of<spins, V>([&](auto k) __attribute__((always_inline)) {
+                    return V::of([&](auto l) __attribute__((always_inline)) { return of.w[pairs[which(l)].i][k]; });
+                });
+                at.sliding = scaled<spins, V>(at.turning, at.radius);
             }
         }
     };
@@ -177,6 +200,7 @@ private:
     template <class Meeting>
     void walk(const Meeting& meet, std::uint32_t count, touch_state* touches, memory_type* memory) const {
         std::uint32_t active[block + 2 * width];
+        shape shapes[block / width + 2];
         std::uint32_t waiting = 0;
         for (std::uint32_t begin = 0; begin < count; begin += block) {
             const auto end = (std::min)(count, begin + block);
@@ -186,15 +210,20 @@ private:
             if (k < end)  // the last of all stands in for those that are missing
                 note(meet.touching([k, end](unsigned l) { return (std::min)(k + l, end - 1); }), k, end - k, active,
                      waiting, touches);
-            std::uint32_t done = 0;
-            for (; done + width <= waiting; done += width) act(meet, active + done, width, touches, memory);
-            waiting -= done;
-            for (std::uint32_t l = 0; l < waiting; ++l) active[l] = active[done + l];
+            const auto groups = waiting / width;
+            for (std::uint32_t g = 0; g < groups; ++g) shapes[g] = meet.find_shape(chosen(active + g * width));
+            for (std::uint32_t g = 0; g < groups; ++g)
+                act(meet, shapes[g], active + g * width, width, touches, memory);
+            waiting -= groups * width;
+            for (std::uint32_t l = 0; l < waiting; ++l) active[l] = active[groups * width + l];
         }
         if (waiting != 0) {
             for (auto l = waiting; l < width; ++l) active[l] = active[0];
-            act(meet, active, waiting, touches, memory);
+            act(meet, meet.find_shape(chosen(active)), active, waiting, touches, memory);
         }
+    }
+    [[gnu::always_inline]] static auto chosen(const std::uint32_t* active) noexcept {
+        return [active](unsigned l) __attribute__((always_inline)) { return active[l]; };
     }
     [[gnu::always_inline]] static void note(unsigned bits, std::uint32_t k, unsigned count, std::uint32_t* active,
                                             std::uint32_t& waiting, touch_state* touches) noexcept {
@@ -207,48 +236,48 @@ private:
         }
     }
     template <class Meeting>
-    [[gnu::always_inline]] void act(const Meeting& meet, const std::uint32_t* active, unsigned count,
-                                    touch_state* touches, memory_type* memory) const noexcept {
-        const auto which = [active](unsigned l) __attribute__((always_inline)) { return active[l]; };
+    [[gnu::always_inline]] void act(const Meeting& meet, const shape& where, const std::uint32_t* active,
+                                    unsigned count, const touch_state* touches, memory_type* memory) const noexcept {
         contact<D, V> at;
-        meet.measure(which, at);
+        at.normal = where.normal;
+        at.overlap = where.overlap;
+        meet.measure(chosen(active), at);
         at.time_step = V(time_step_);
-        vec<springs, V> remembered;
-        if constexpr (springs != 0)
-            for (unsigned l = 0; l < width; ++l) {
-                const auto& held = memory[active[l]];
-                const bool is_old = (touches[active[l]] & 2U) != 0;
-                for (std::size_t k = 0; k < springs; ++k) remembered[k].set(l, is_old ? held[k] : real(0));
-            }
+        auto remembered = vector_of<springs, V>([&](auto k) __attribute__((always_inline)) {
+            return V::of([&](auto l) __attribute__((always_inline)) {
+                return (touches[active[l]] & 2U) != 0 ? memory[active[l]][k] : real(0);
+            });
+        });
         const auto action = law_.template act<!Scene::integrator_type::solves_damping, D, V>(at, remembered);
-        for (unsigned l = 0; l < count; ++l) {
-            if constexpr (springs != 0)
-                for (std::size_t k = 0; k < springs; ++k) memory[active[l]][k] = remembered[k][l];
-            const auto i = meet.first(active[l]);
+        unrolled<width>([&](auto l) __attribute__((always_inline)) {
+            if (l >= count) return;
+            const auto which_one = active[l];
+            unrolled<springs>([&](auto k) __attribute__((always_inline)) { memory[which_one][k] = remembered[k][l]; });
+            const auto i = meet.first(which_one);
             auto& on_i = of_.f[i];
-            for (std::size_t k = 0; k < D; ++k) on_i[k] += action.force[k][l];
-            if constexpr (Meeting::has_partner) {
-                auto& on_j = of_.f[meet.second(active[l])];
-                for (std::size_t k = 0; k < D; ++k) on_j[k] -= action.force[k][l];
+            unrolled<D>([&](auto k) __attribute__((always_inline)) { on_i[k] += action.force[k][l]; });
+            if constexpr (turns) {
+                const real arm = of_.radius_at(i);
+                auto& turns_i = of_.t[i];
+                unrolled<spins>([&](auto k) __attribute__((always_inline)) { turns_i[k] -= arm * action.twist[k][l]; });
+                if constexpr (law_type::rolling_type::turns)
+                    unrolled<spins>([&](auto k) __attribute__((always_inline)) { turns_i[k] += action.rolling[k][l]; });
             }
-            if constexpr (turns) turn(meet, action, active[l], l);
-        }
-    }
-    template <class Meeting>
-    [[gnu::always_inline]] void turn(const Meeting& meet, const contact_action<D, V>& action, std::uint32_t which,
-                                     unsigned l) const noexcept {
-        const auto i = meet.first(which);
-        auto& on_i = of_.t[i];
-        for (std::size_t k = 0; k < spins; ++k) on_i[k] -= of_.radius_at(i) * action.twist[k][l];
-        if constexpr (law_type::rolling_type::turns)
-            for (std::size_t k = 0; k < spins; ++k) on_i[k] += action.rolling[k][l];
-        if constexpr (Meeting::has_partner) {
-            const auto j = meet.second(which);
-            auto& on_j = of_.t[j];
-            for (std::size_t k = 0; k < spins; ++k) on_j[k] -= of_.radius_at(j) * action.twist[k][l];
-            if constexpr (law_type::rolling_type::turns)
-                for (std::size_t k = 0; k < spins; ++k) on_j[k] -= action.rolling[k][l];
-        }
+            if constexpr (Meeting::has_partner) {
+                const auto j = meet.second(which_one);
+                auto& on_j = of_.f[j];
+                unrolled<D>([&](auto k) __attribute__((always_inline)) { on_j[k] -= action.force[k][l]; });
+                if constexpr (turns) {
+                    const real arm = of_.radius_at(j);
+                    auto& turns_j = of_.t[j];
+                    unrolled<spins>(
+                        [&](auto k) __attribute__((always_inline)) { turns_j[k] -= arm * action.twist[k][l]; });
+                    if constexpr (law_type::rolling_type::turns)
+                        unrolled<spins>(
+                            [&](auto k) __attribute__((always_inline)) { turns_j[k] -= action.rolling[k][l]; });
+                }
+            }
+        });
     }
 
     const columns<Scene>& of_;

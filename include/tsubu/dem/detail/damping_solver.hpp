@@ -60,7 +60,7 @@ void solve_damping(Run& of, double half_step) {
     constexpr int most_rounds = 10000;
     for (int round = 0;; ++round) {
         of.near_.forward(store, fields<scene::integrator_type::template solved<quantities>>{});
-        double changes[2] = {0, 0};  // of velocities, and the greatest of these
+        double changes[2] = {0, 0};  // of velocities, and how great these are
         for (auto& one : contacts) {
             double separation = 0;
             for (std::size_t k = 0; k < D; ++k) {
@@ -77,7 +77,9 @@ void solve_damping(Run& of, double half_step) {
                 if (one.j != absent) v[one.j][k] -= static_cast<real>(impulse / of.mass(one.j) * one.normal[k]);
             }
             changes[0] = (std::max)(changes[0], std::abs(impulse) * one.inverse_mass);
-            changes[1] = (std::max)(changes[1], std::abs(free));
+            // What rounds: velocities, and what the forces of half a step add to them.
+            changes[1] = (std::max)({changes[1], std::abs(separation), std::abs(free),
+                                     half_step * one.inverse_mass * (std::abs(one.elastic) + std::abs(wanted))});
         }
         of.on().reduce(std::span<double>(changes), reduction::greatest);
         constexpr double tolerance = 4 * static_cast<double>(std::numeric_limits<real>::epsilon());

@@ -79,23 +79,28 @@ public:
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
             keep_memory(store);
-            renew(store);
+            renew(store, typename Scene::migration_fields{});
             return true;
         }
         forward(store, typename Scene::forward_fields{});
         return false;
     }
+    /// Between two looks: whether lists have been used too long. Collective.
+    void check_uses() {
+        if (how_.check_every > 1) watch_.check(*on_);
+    }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
     void keep_memory(store_type& store) { memory_.keep(store, pairs(), near_walls()); }
-    /// Particles go to their ranks; ghosts and neighbours are found anew. Collective.
-    void renew(store_type& store) {
+    /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.
+    template <class Carried>
+    void renew(store_type& store, Carried carried) {
         pairs_ = {};  // they end with the places of particles, whatever fails below
         near_walls_.clear();
         springs_.clear();
-        migrate(store, parts_, *on_);
+        migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
             store.permute(order_along(hilbert_curve{}, box(), store.owned()[Scene::quantities_type::position]));
-        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store)), *on_);
+        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
         agreement<> all(on_->rank());
         all.attempt([&] {
             if constexpr (Scene::has_contacts) {
@@ -138,6 +143,13 @@ private:
                 "give a cutoff of at least their sum, or 0 for just that");
         return how_.cutoff;
     }
+    /// By how much a particle may be nearer than the middle of its cell, twice [m].
+    [[nodiscard]] double widest_cell() const noexcept {
+        double width = 0;
+        if constexpr (Scene::quantities_type::has_offsets)
+            for (std::size_t k = 0; k < D; ++k) width = (std::max)(width, box().along(k).length_of(1.0));
+        return width * static_cast<double>(D);
+    }
     void find_pairs(store_type& store) {
         const auto build = [&](const auto& x) {
             if constexpr (bodies_type::are_equal)
@@ -176,7 +188,7 @@ private:
         const auto found = topology<tsubu::bonds, newton_off>::resolve(store, where_, same, [&](index_t i, index_t j) {
             double square = 0;
             for (std::size_t k = 0; k < D; ++k) {
-                const auto d = static_cast<double>(of.apart(k, of.x[i][k], of.x[j][k]));
+                const auto d = static_cast<double>(of.apart(k, i, j));
                 square += d * d;
             }
             return square;

@@ -5,16 +5,18 @@
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/error.hpp>
+#include <tsubu/core/lanes.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/interval.hpp>
+#include <tsubu/neighbor/detail/stencil_points.hpp>
 
-#include <algorithm>  // std::max, std::min
+#include <algorithm>  // std::fill, std::max, std::min
 #include <array>      // std::array
-#include <cmath>      // std::cbrt, std::sqrt
 #include <cstddef>    // std::size_t
-#include <cstdint>    // std::uint32_t
+#include <cstdint>    // std::int32_t, std::uint32_t
+#include <limits>     // std::numeric_limits
 #include <string>     // std::to_string
 
 namespace tsubu::detail {
@@ -24,153 +26,172 @@ namespace tsubu::detail {
 //
 //     . . . . . .        stencil of a cell c in 2-D, each pair once:
 //     . a b c d .            * * *      the stretch of three cells above,
-//     . e f g h .            c *        and what follows in c and the cell to its right
+//     . e f g h .            c *        and c with the cell to its right
 //     . . . . . .
-
-inline void check_reach(const char* where, double reach) {
-    if (!(reach > 0) || !is_finite(reach))
-        raise<input_error>(where, "neighbours up to a distance of " + shown(reach),
-                           "give a finite length above 0: the range of the forces, and a skin");
-}
+//
+// A stretch holds a few points only, and how many cannot be predicted. So the points of a stencil are first copied one
+// stretch behind the other, and then compared with each point of the cell in one loop, as many at a time as there are
+// lanes. Empty cells are never looked at: the others are listed, in the order of their first points. If points lie along
+// a curve, pairs do too.
 
 /// Points in the order of their cells.
 template <std::size_t D, class Real>
 class cells {
 public:
-    /// @param x       positions: size() and operator[], finite
+    /// @param x       positions: size() and x[i][k], finite
     /// @param cutoff  [m]
     /// Complexity: O(N). @throws input_error at a position that is not finite.
     template <class Positions>
-    cells(const Positions& x, Real cutoff) : count_(static_cast<std::size_t>(x.size())) {
-        lay_out(x, cutoff);
+    cells(const char* where, const Positions& x, Real cutoff) : count_(static_cast<std::size_t>(x.size())) {
+        lay_out(where, x, cutoff);
         sort(x);
     }
 
-    [[nodiscard]] std::size_t size() const noexcept { return count_; }
-    /// Coordinate k of the points, in their order here.
-    [[nodiscard]] const Real* along(std::size_t k) const noexcept { return x_[k].data(); }
-    /// Where each was before.
-    [[nodiscard]] const index_t* origin() const noexcept { return origin_.data(); }
-    /// body(point, stretches): the points in stretches [first, last) are near the point, each pair once; of each point
-    /// in the order of cells. The stretches of points in one cell differ only in where the first begins.
+    /// body(near, k, begin): point k of `near` and those from `begin` on are all candidates, each pair once.
     template <class Body>
     void each_half(Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 0 : D == 2 ? 1 : 4;
         const std::size_t steps[4] = {width_[0], plane_ - width_[0], plane_, plane_ + width_[0]};
-        each_cell([&](std::size_t c) {
-            std::array<stretch, rows + 1> near;
-            for (std::size_t r = 0; r < rows; ++r) near[r + 1] = {begin_[c + steps[r] - 1], begin_[c + steps[r] + 2]};
-            for (auto a = begin_[c]; a < begin_[c + 1]; ++a) {
-                near[0] = {a + 1, begin_[c + 2]};
-                body(a, near);
-            }
+        each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
+            std::array<point_stretch, rows + 1> stretches;
+            stretches[0] = {begin_[c], begin_[c + 2]};
+            for (std::size_t r = 0; r < rows; ++r)
+                stretches[r + 1] = {begin_[c + steps[r] - 1], begin_[c + steps[r] + 2]};
+            near.gather(columns_, origin_.data(), stretches);
+            const auto own = begin_[c + 1] - begin_[c];
+            for (std::uint32_t k = 0; k < own; ++k) body(near, k, k + 1);
         });
     }
-    /// The same with each pair from both sides; the point itself is among what is near.
+    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point with an index below `end`.
     template <class Body>
-    void each_full(Body&& body) const {
+    void each_full(index_t end, Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 1 : D == 2 ? 3 : 9;
-        each_cell([&](std::size_t c) {
-            std::array<stretch, rows> near;
-            std::size_t r = 0;
+        each_cell([&](stencil_points<D, Real>& near, std::size_t c) {
+            // Of the points of a cell the first has the lowest index.
+            if (origin_[begin_[c]] >= end) return;
+            std::array<point_stretch, rows> stretches;
+            stretches[0] = {begin_[c - 1], begin_[c + 2]};
+            std::size_t r = 1;
             for (std::size_t z = 0; z < (D == 3 ? 3U : 1U); ++z)
                 for (std::size_t y = 0; y < (D >= 2 ? 3U : 1U); ++y) {
                     const auto row = c + (D == 3 ? z * plane_ - plane_ : 0) + (D >= 2 ? y * width_[0] - width_[0] : 0);
-                    near[r++] = {begin_[row - 1], begin_[row + 2]};
+                    if (row != c) stretches[r++] = {begin_[row - 1], begin_[row + 2]};
                 }
-            for (auto a = begin_[c]; a < begin_[c + 1]; ++a) body(a, near);
+            near.gather(columns_, origin_.data(), stretches);
+            const auto first = begin_[c] - begin_[c - 1];
+            const auto own = begin_[c + 1] - begin_[c];
+            for (auto k = first; k < first + own && near.index(k) < end; ++k) body(near, k);
         });
     }
-
-    struct stretch {
-        std::uint32_t first;
-        std::uint32_t last;
-    };
 
 private:
     // Cells are as wide as the cutoff, or wider where the points are so sparse that most would be empty.
     template <class Positions>
-    void lay_out(const Positions& x, Real cutoff) {
+    void lay_out(const char* where, const Positions& x, Real cutoff) {
+        vec<D, Real> lo{};
         vec<D, Real> hi{};
-        if (count_ != 0) lo_ = hi = x[0];
-        Real checked = 0;
-        for (std::size_t i = 0; i < count_; ++i)
+        vec<D, Real> checked{};  // not 0 as soon as one is not finite; one sum for each axis, since they take turns
+        if (count_ != 0)
+            for (std::size_t k = 0; k < D; ++k) lo[k] = hi[k] = x[0][k];
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto& at = x[i];
             for (std::size_t k = 0; k < D; ++k) {
-                lo_[k] = (std::min)(lo_[k], x[i][k]);
-                hi[k] = (std::max)(hi[k], x[i][k]);
-                checked += x[i][k] * 0;  // not 0 as soon as one is not finite
+                lo[k] = (std::min)(lo[k], at[k]);
+                hi[k] = (std::max)(hi[k], at[k]);
+                checked[k] += at[k] * 0;
             }
-        if (!(checked == 0)) refuse(x);
-        const auto most = static_cast<Real>((std::min)(4 * count_ + 64, std::size_t{1} << 30));
-        Real edge = cutoff;
-        for (;; edge *= Real(1.25)) {
-            Real cells_in_all = 1;
-            for (std::size_t k = 0; k < D; ++k) cells_in_all *= (hi[k] - lo_[k]) / edge + 1;
-            if (!(cells_in_all > most)) break;
+        }
+        for (std::size_t k = 0; k < D; ++k)
+            if (!(checked[k] == 0)) refuse(where, x);
+        lo_ = lo;
+        // Rounding puts a point into a wrong cell by up to two units in the last place of the number of the cell.
+        Real longest = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto length = hi[k] - lo[k];
+            if (!is_finite(length))
+                raise<input_error>(where, "coordinate " + std::to_string(k) + " from " + shown(lo[k]) + " to " +
+                                              shown(hi[k]) + ", of which the difference is not finite",
+                                   "find what made it: a time step past the limit, or an overlap of its start");
+            longest = (std::max)(longest, length);
+        }
+        constexpr Real margin = 8 * std::numeric_limits<Real>::epsilon();
+        const auto most = static_cast<Real>((std::min)(cells_per_point * count_ + 64, std::size_t{1} << 30));
+        Real edge = cutoff + margin * (cutoff + longest);
+        for (;; edge *= Real(1.125)) {
+            Real in_all = 1;
+            for (std::size_t k = 0; k < D; ++k) in_all *= (hi[k] - lo[k]) / edge + 3;
+            if (!(in_all > most)) break;
         }
         inverse_edge_ = 1 / edge;
         std::size_t all = 1;
         for (std::size_t k = 0; k < D; ++k) {
-            // One cell for what rounding brings beyond, and one empty one at each end.
-            width_[k] = static_cast<std::size_t>((hi[k] - lo_[k]) * inverse_edge_) + 3;
+            // An empty one at each end. No product is greater than that of the greatest: rounding keeps the order.
+            width_[k] = static_cast<std::size_t>((hi[k] - lo[k]) * inverse_edge_) + 3;
             all *= width_[k];
         }
-        for (auto k = D; k < 3; ++k) width_[k] = 1;
-        plane_ = width_[0] * width_[1];
+        plane_ = width_[0] * (D >= 2 ? width_[1] : 1);
         begin_ = buffer<std::uint32_t>(all + 2, {});
         std::fill(begin_.begin(), begin_.end(), 0U);
     }
     template <class Positions>
-    [[noreturn]] static void refuse(const Positions& x) {
+    [[noreturn, gnu::cold, gnu::noinline]] static void refuse(const char* where, const Positions& x) {
         for (std::size_t i = 0;; ++i)
             for (std::size_t k = 0; k < D; ++k)
                 if (!is_finite(x[i][k]))
-                    raise<input_error>("neighbor",
+                    raise<input_error>(where,
                                        "coordinate " + std::to_string(k) + " of particle " + std::to_string(i) +
                                            " is " + shown(x[i][k]),
                                        "find what made it: a time step past the limit, or an overlap of its start");
     }
     template <class Position>
-    [[nodiscard]] std::size_t cell_of(const Position& at) const noexcept {
+    [[nodiscard]] std::uint32_t cell_of(const Position& at) const noexcept {
         std::size_t c = 0;
         for (auto k = D; k-- > 0;)
             c = c * width_[k] + static_cast<std::uint32_t>(static_cast<std::int32_t>((at[k] - lo_[k]) * inverse_edge_)) + 1;
-        return c;
+        return static_cast<std::uint32_t>(c);
     }
     template <class Positions>
     void sort(const Positions& x) {
         buffer<std::uint32_t> cell(count_, {});
+        filled_ = buffer<std::uint32_t>((std::min)(count_, begin_.size()) + 1, {});
+        filled_count_ = 0;
+        auto* const begin = begin_.data();
         for (std::size_t i = 0; i < count_; ++i) {
-            cell[i] = static_cast<std::uint32_t>(cell_of(x[i]));
-            ++begin_[cell[i] + 2];
+            const auto c = cell_of(x[i]);
+            cell[i] = c;
+            filled_[filled_count_] = c;
+            filled_count_ += begin[c + 2]++ == 0 ? 1U : 0U;
         }
-        for (std::size_t c = 2; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-        for (auto& along : x_) along = buffer<Real>(count_, {});
-        origin_ = buffer<index_t>(count_, {});
+        std::uint32_t sum = 0;
+        for (std::size_t c = 2; c < begin_.size(); ++c) begin[c] = sum += begin[c];
+        // Chunks are copied from any point on.
+        for (auto& along : columns_) along = buffer<Real>(count_ + stencil_points<D, Real>::spare, {});
+        origin_ = buffer<index_t>(count_ + stencil_points<D, Real>::spare, {});
         for (std::size_t i = 0; i < count_; ++i) {
-            const auto at = begin_[cell[i] + 1]++;
-            for (std::size_t k = 0; k < D; ++k) x_[k][at] = x[i][k];
-            origin_[at] = static_cast<index_t>(i);
+            const auto to = begin[cell[i] + 1]++;
+            const auto& at = x[i];
+            for (std::size_t k = 0; k < D; ++k) columns_[k][to] = at[k];
+            origin_[to] = static_cast<index_t>(i);
         }
     }
     template <class Body>
     void each_cell(Body&& body) const {
-        const auto inner = [](std::size_t width) { return width > 1 ? width - 1 : 1; };
-        for (std::size_t z = width_[2] > 1 ? 1 : 0; z < inner(width_[2]); ++z)
-            for (std::size_t y = width_[1] > 1 ? 1 : 0; y < inner(width_[1]); ++y) {
-                const auto row = z * plane_ + y * width_[0];
-                for (std::size_t c = row + 1; c < row + width_[0] - 1; ++c) body(c);
-            }
+        stencil_points<D, Real> near(2 * count_ > 3 * filled_count_);
+        for (std::size_t f = 0; f < filled_count_; ++f) body(near, filled_[f]);
     }
+
+    static constexpr std::size_t cells_per_point = 4;
 
     std::size_t count_;
     vec<D, Real> lo_{};
     Real inverse_edge_ = 0;
-    std::array<std::size_t, 3> width_{1, 1, 1};
+    std::array<std::size_t, D> width_{};
     std::size_t plane_ = 1;
     buffer<std::uint32_t> begin_;  // [cells + 2]: of each cell, after sorting
-    std::array<buffer<Real>, D> x_;
-    buffer<index_t> origin_;
+    buffer<std::uint32_t> filled_;
+    std::size_t filled_count_ = 0;
+    std::array<buffer<Real>, D> columns_;
+    buffer<index_t> origin_;  // where each was before
 };
 
 }  // namespace tsubu::detail

@@ -1,0 +1,36 @@
+#include <tsubu/tsubu.hpp>
+
+#include <cstdio>
+
+namespace dem = tsubu::dem;
+
+// A scene is a type. What none of its models needs is neither stored, nor sent, nor computed.
+using scene = dem::simulation<3, double, dem::velocity_verlet, dem::hooke_dashpot<dem::linear_history>, dem::walls,
+                              dem::gravity>;
+static_assert(scene::bytes_per_particle == 8 + 5 * 24 + 16);  // id; x, v, f, spin, torque; contacts
+static_assert(!scene::store_type::has<decltype(tsubu::radius)>);  // all are alike: equal_spheres
+
+int main() {
+    tsubu::self_transport on;  // or mpi_transport: all that follows is the same
+    const scene::box_type box({0, 0, 0}, {6, 6, 12}, {.periodic = {true, true, false}});
+    dem::run<scene, tsubu::self_transport> bed(
+        box, {.time_step = 2e-4, .skin = 0.1}, on,
+        scene::contact_type{{.k = 2e5, .gamma = 200}, {.k_t = 2e5 * 2 / 7, .mu = 0.5}},
+        dem::walls{{{.point = {0, 0, 0}, .normal = {0, 0, 1}}}}, dem::gravity{{0, 0, -1}},
+        dem::equal_spheres{.radius = 0.5, .mass = 1});
+
+    tsubu::random_stream random(7);
+    for (int i = 0; i < 125; ++i)
+        bed.particles().push_back(tsubu::id = i, tsubu::position<3> = {1.2 * (i % 5) + 0.1 * random.unit(),
+                                                                       1.2 * (i / 5 % 5) + 0.1 * random.unit(),
+                                                                       1.2 * (i / 25) + 1});
+    bed.start();  // each to its rank; neighbours, forces
+    for (int n = 0; n < 5; ++n) {
+        bed.steps(20000);
+        std::printf("%5.1f s  mean height %.3f m  kinetic energy %7.3f J  contacts per grain %.2f\n",
+                    2e-4 * static_cast<double>(bed.steps_done()), dem::mean_position(bed)[2], dem::kinetic_energy(bed),
+                    dem::coordination_number(bed));
+    }
+    tsubu::write_vtp("bed.vtp", bed.particles(), tsubu::position<3>);
+    return dem::mean_position(bed)[2] < 1.7 && dem::particle_count(bed) == 125 ? 0 : 1;
+}

@@ -5,7 +5,7 @@
 ///
 /// Rows:
 ///
-///     dem/impact/LAW/INTEGRATOR/NUMBER       rms error of the restitution of two spheres, over 16 phases of the contact
+///     dem/impact/LAW/INTEGRATOR/NUMBER       rms error of the restitution of two spheres, over 16 phases of a step
 ///     dem/past/LAW/INTEGRATOR/NUMBER         the same past the limit
 ///     dem/cost/LAW/INTEGRATOR/NUMBER         ns per particle-step of the same simulation, of a row of spheres
 ///     dem/oblique/CASE/INTEGRATOR/NUMBER     rms error of velocity and spin after a floor was hit at 45 degrees

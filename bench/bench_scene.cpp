@@ -124,9 +124,10 @@ private:
         on_->reduce(std::span<double>(waited), tsubu::reduction::greatest);
         const auto count = particle_count(*run_);
         if (speaks())
-            std::printf("{\"scene\": \"%s\", \"particles\": %llu, \"ranks\": %zu, \"steps\": %llu, \"seconds\": %.6g}\n",
-                        asked_.name.c_str(), static_cast<unsigned long long>(count), on_->ranks(),
-                        static_cast<unsigned long long>(steps_), waited[0]);
+            std::printf(
+                "{\"scene\": \"%s\", \"particles\": %llu, \"ranks\": %zu, \"steps\": %llu, \"seconds\": %.6g}\n",
+                asked_.name.c_str(), static_cast<unsigned long long>(count), on_->ranks(),
+                static_cast<unsigned long long>(steps_), waited[0]);
     }
     void look() {
         const double kinetic = kinetic_energy(*run_);
@@ -161,11 +162,13 @@ private:
         if (!speaks() || (!is_terminal && !is_due)) return;
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
         const double share = static_cast<double>(run_->steps_done()) / static_cast<double>(steps_);
-        std::fprintf(stderr, "%s%s: %3.0f %%, step %llu of %llu, t = %.4g s, kinetic %.4g J, %.3g Mparticle-steps/s, %.0f s left%s",
-                     is_terminal ? "\r" : "", asked_.name.c_str(), 100 * share,
-                     static_cast<unsigned long long>(run_->steps_done()), static_cast<unsigned long long>(steps_), time(),
-                     kinetic_, 1e-6 * static_cast<double>(run_->steps_done() * all_) / seconds,
-                     seconds * (1 - share) / share, is_terminal && run_->steps_done() < steps_ ? "\033[K" : "\n");
+        std::fprintf(
+            stderr,
+            "%s%s: %3.0f %%, step %llu of %llu, t = %.4g s, kinetic %.4g J, %.3g Mparticle-steps/s, %.0f s left%s",
+            is_terminal ? "\r" : "", asked_.name.c_str(), 100 * share,
+            static_cast<unsigned long long>(run_->steps_done()), static_cast<unsigned long long>(steps_), time(),
+            kinetic_, 1e-6 * static_cast<double>(run_->steps_done() * all_) / seconds, seconds * (1 - share) / share,
+            is_terminal && run_->steps_done() < steps_ ? "\033[K" : "\n");
     }
     /// All particles come to rank 0.
     void picture() {
@@ -191,7 +194,8 @@ private:
             }
         char title[128];
         std::snprintf(title, sizeof title, "%s: %zu %s%s, t = %.4g s", asked_.name.c_str(), spheres.size(),
-                      D == 2 && !run_type::scene::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s", time());
+                      D == 2 && !run_type::scene::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s",
+                      time());
         sphere_picture(title, D == 3).write(path(".svg"), spheres, outlines(spheres));
     }
     /// Walls, as far as there are spheres; the edges of a box of three dimensions.
@@ -276,12 +280,14 @@ std::vector<entry> all_scenes() {
     constexpr double k = 2e5;
     const hooke_dashpot<linear_history> sticky{{k, 50}, {k * 2 / 7, 0.5, 50}};
     std::vector<entry> all;
-    all.push_back(scene("pair", "two spheres that collide head on, spring and dashpot", 2e-5, 1000, 0, [](const request& r) {
-        return pair_scene<hooke_dashpot<>>{.law = hooke_dashpot<>{{k, 50}}, .time_step = r.time_step, .phase = 300};
-    }));
-    all.push_back(scene("bounce", "a sphere that falls on a floor, again and again", 2e-5, 100000, 0, [](const request& r) {
-        return bounce_scene<>{.law = hooke_dashpot<>{{5e4, 10}}, .time_step = r.time_step};
-    }));
+    all.push_back(
+        scene("pair", "two spheres that collide head on, spring and dashpot", 2e-5, 1000, 0, [](const request& r) {
+            return pair_scene<hooke_dashpot<>>{.law = hooke_dashpot<>{{k, 50}}, .time_step = r.time_step, .phase = 300};
+        }));
+    all.push_back(
+        scene("bounce", "a sphere that falls on a floor, again and again", 2e-5, 100000, 0, [](const request& r) {
+            return bounce_scene<>{.law = hooke_dashpot<>{{5e4, 10}}, .time_step = r.time_step};
+        }));
     all.push_back(scene("chain", "masses on springs between fixed ends, in their first mode", 0.5, 1000, 64,
                         [](const request& r) { return chain_scene<>{.time_step = r.time_step, .masses = r.size}; }));
     all.push_back(scene("crystal", "spheres pressed together in an FCC crystal that ripples", 0.5, 2000, 864,
@@ -296,13 +302,16 @@ std::vector<entry> all_scenes() {
     all.push_back(scene("incline", "a sphere on a slope that friction and rolling resistance hold", 1e-5, 50000, 0,
                         [sticky](const request& r) {
                             using law = hooke_dashpot<linear_history, rolling_resistance>;
-                            return floor_scene<law>{.law = law{{k, 50}, sticky.tangential(), {.mu_r = 0.4, .eta_r = 0.3}},
+                            const law rough{{k, 50}, sticky.tangential(), {.mu_r = 0.4, .eta_r = 0.3}};
+                            return floor_scene<law>{.law = rough,
                                                     .time_step = r.time_step,
                                                     .speed = 0,
                                                     .slope = 0.1};
                         }));
     all.push_back(scene("oblique", "a sphere that hits a floor at 45 degrees", 1e-5, 2000, 0, [](const request& r) {
-        return oblique_scene<>{.law = hooke<linear_history>{{k}, {k * 2 / 7, 0.5}}, .time_step = r.time_step, .phase = 50};
+        return oblique_scene<>{.law = hooke<linear_history>{{k}, {k * 2 / 7, 0.5}},
+                               .time_step = r.time_step,
+                               .phase = 50};
     }));
     all.push_back(scene("gas", "an elastic gas, periodic", 2e-4, 20000, 10648, [](const request& r) {
         return gas_scene<>{.law = hooke<>{{k}}, .time_step = r.time_step, .per_edge = edge_of(r.size, 3)};
@@ -375,7 +384,8 @@ std::optional<request> parse(int argc, char** argv) {
         else if (word == "--size")
             asked.size = number_of_word<std::uint64_t>(word, value(), 1, "a whole number of particles, at least 1");
         else if (word == "--every")
-            asked.every = number_of_word<std::uint64_t>(word, value(), 0, "a whole number of steps; 0 for none between");
+            asked.every =
+                number_of_word<std::uint64_t>(word, value(), 0, "a whole number of steps; 0 for none between");
         else if (word == "--out")
             asked.out = value();
         else if (word.starts_with("-"))

@@ -115,11 +115,13 @@ timed_contender rung(const std::string& name, const std::string& base, const Sce
 }
 template <class Law, class Integrator = velocity_verlet, class Number = double, class Bodies = equal_spheres>
 timed_contender bed_rung(const std::string& name, const std::string& base, const Law& law) {
-    return rung(name, base, bed_scene<Law, Integrator, Number, Bodies>{.law = law, .time_step = no_time}, number_name<Number>);
+    return rung(name, base, bed_scene<Law, Integrator, Number, Bodies>{.law = law, .time_step = no_time},
+                number_name<Number>);
 }
 template <class... Numbers>
 void add_numbers(std::vector<timed_contender>& rungs, const hooke_dashpot<linear_history>& law) {
-    (rungs.push_back(bed_rung<hooke_dashpot<linear_history>, velocity_verlet, Numbers>("history", "history", law)), ...);
+    (rungs.push_back(bed_rung<hooke_dashpot<linear_history>, velocity_verlet, Numbers>("history", "history", law)),
+     ...);
 }
 
 void ladder(row_reporter& report, extent how_much) {

@@ -83,7 +83,8 @@ void oscillate(row_reporter& report, const Law& law, double zeta) {
     std::snprintf(text, sizeof text, "%g", zeta);
     for (double w_dt = 0.05; w_dt < 4.05; w_dt = w_dt < 0.5 ? w_dt * 1.25 : w_dt + 0.03125)
         report.counted("dem/walls/" + std::string(text) + "/" + integrator_name<Integrator> + "/double",
-                       {{"omega_dt", w_dt}, {"error", shown_error(oscillation_error<Law, Integrator>(law, zeta, w_dt))}});
+                       {{"omega_dt", w_dt},
+                        {"error", shown_error(oscillation_error<Law, Integrator>(law, zeta, w_dt))}});
 }
 void between_walls(row_reporter& report) {
     // Two springs of k = 1/2 give w = 1.

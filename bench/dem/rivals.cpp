@@ -119,8 +119,8 @@ std::vector<rival_scene> rival_scenes() {
     const mindlin_history mindlin{bed_shear_modulus, 0.5};
     std::vector<rival_scene> all;
     all.push_back({"gas", 1, [](row_reporter& report, const std::string& name, std::size_t rounds) {
-                       beside(report, name, gas_scene<hooke<>>{.law = hooke<>{{2e5}}, .time_step = 2e-4}, "gas", 0, 2000,
-                              rounds);
+                       beside(report, name, gas_scene<hooke<>>{.law = hooke<>{{2e5}}, .time_step = 2e-4}, "gas", 0,
+                              2000, rounds);
                    }});
     all.push_back({"bed_frictionless", 2,
                    in_bed(hooke_dashpot<>{{bed_stiffness, 50}}, "bed_frictionless", 100, 1000)});
@@ -168,8 +168,9 @@ void add_rivals(std::vector<group>& groups, extent how_much) {
                               [one, rounds](row_reporter& report) { one.run(report, one.name, rounds); }});
     const char* const launcher = std::getenv("TSUBU_BENCH_LAUNCHER");
     if (launcher != nullptr && *launcher != '\0')
-        groups.push_back({"dem/ranks", 6 * static_cast<double>(rounds),
-                          [text = std::string(launcher), rounds](row_reporter& report) { ranks(report, text, rounds); }});
+        groups.push_back(
+            {"dem/ranks", 6 * static_cast<double>(rounds),
+             [text = std::string(launcher), rounds](row_reporter& report) { ranks(report, text, rounds); }});
     groups.push_back({"dem/missing", 0.01, [=](row_reporter& report) {
                           if (!has_lammps)
                               report.counted("dem/missing/LAMMPS/no lmp on this machine (Debian: lammps)/-", {});

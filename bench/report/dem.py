@@ -26,6 +26,7 @@ TOLERANCE = 1e-2  # restitutions are not known better
 LOST = 1e9        # an error that is none any more
 # 5 units in the last place of a coordinate, by the greatest overlap of 1.58e-3 m: at 0.5 m, and in a box of 4 m
 FLOORS = {"float": 5 * 2.0**-24 / 1.58e-3, "lattice<int32>": 5 * 4 * 2.0**-32 / 1.58e-3}
+FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
 
 RUNGS = {  # name: label; base: which rung it is compared with stands in the rows
     "motion": "motion alone, no contacts", "hooke": "Hooke", "dashpot": "+ dashpot", "coulomb": "+ rotation, Coulomb",
@@ -43,8 +44,9 @@ OURS, THEIRS = "#2a8fd0", "#d1603d"
 BYTES_PROMISE, RANKS_PROMISE, HAND_PROMISE, ORDER_PROMISE, SAME_PROMISE = 2, 1.8, 1.05, .15, 6
 
 TITLE = "scenes"
-INTRODUCTION = ("Scenes: what a step of spheres costs, how exact it is, and where it breaks. All contenders take turns; "
-                "LAMMPS, where it is installed, runs the same scene from the same numbers on the same core.")
+INTRODUCTION = (
+    "Scenes: what a step of spheres costs, how exact it is, and where it breaks. All contenders take turns; LAMMPS, "
+    "where it is installed, runs the same scene from the same numbers on the same core.")
 CLAIM_NOTE = ""
 
 
@@ -191,8 +193,8 @@ def legend_below(figure, axes, columns, at=-.01):
     for one in axes:
         for handle, label in zip(*one.get_legend_handles_labels()):
             found.setdefault(label, handle)
-    figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(.5, at), ncol=columns, frameon=False,
-                  fontsize=8.5)
+    figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(.5, at), ncol=columns,
+                  frameon=False, fontsize=8.5)
 
 
 def hatched(axes, low, high, upright, label, where=None):
@@ -201,7 +203,8 @@ def hatched(axes, low, high, upright, label, where=None):
     span(low, high, facecolor="none", edgecolor="#b3261e", alpha=.4, hatch="///", linewidth=0, zorder=0)
     if label:
         x, y = where
-        axes.annotate(label, (x, y), xycoords="axes fraction", fontsize=8, color="#b3261e", ha="right" if x > .5 else "left")
+        axes.annotate(label, (x, y), xycoords="axes fraction", fontsize=8, color="#b3261e",
+                      ha="right" if x > .5 else "left")
 
 
 def guides(axes, start):
@@ -246,8 +249,7 @@ def work_precision(results, task, case, title, pyplot, cost_task=None, cost_case
             axes.axvline(tolerance, color="#1d7a3c", linewidth=1.1, linestyle=(0, (6, 3)), zorder=2)
         for name, floor in FLOORS.items() if floors else ():
             if floor > axes.get_xlim()[0]:
-                axes.axvline(floor, color={"float": "#e377a2"}.get(name, "#8a5a2b"), linewidth=1,
-                             linestyle=(0, (1, 2)), zorder=2)
+                axes.axvline(floor, color=FLOOR_COLOURS[name], linewidth=1, linestyle=(0, (1, 2)), zorder=2)
     by_time.set_ylabel("µs of a core per simulated second and particle")
     by_force.set_ylabel("force evaluations of a contact")
     by_force.set_ylim(1, by_force.get_ylim()[1])
@@ -258,7 +260,7 @@ def work_precision(results, task, case, title, pyplot, cost_task=None, cost_case
     for axes in (by_time, by_force):
         top = axes.get_ylim()[1]
         marks = [(tolerance, "tolerance", "#1d7a3c")] if tolerance else []
-        marks += [(f, n.replace("lattice<int32>", "int32"), {"float": "#e377a2"}.get(n, "#8a5a2b")) for n, f in FLOORS.items()
+        marks += [(f, n.replace("lattice<int32>", "int32"), FLOOR_COLOURS[n]) for n, f in FLOORS.items()
                   if floors and f > axes.get_xlim()[0]]
         if axes is by_time:
             for x, text, colour in marks:
@@ -324,7 +326,8 @@ def with_limit(axes, at, colour, text, high, side="center"):
 
 
 def wall_points(results, zeta, integrator):
-    return sorted((row["omega_dt"], row["error"]) for row in results.rows.get(("walls", zeta, integrator, "double"), ()))
+    rows = results.rows.get(("walls", zeta, integrator, "double"), ())
+    return sorted((row["omega_dt"], row["error"]) for row in rows)
 
 
 def past_limit_chart(results, pyplot):
@@ -365,8 +368,8 @@ def past_limit_chart(results, pyplot):
         axes.grid(True)
         axes.set_xlabel("ω dt")
         axes.set_ylabel("greatest error of 300 steps, by the amplitude")
-        axes.legend(loc="lower right", fontsize=8, frameon=True, facecolor="white", edgecolor="none", labelcolor="#222222",
-                    framealpha=.85)
+        axes.legend(loc="lower right", fontsize=8, frameon=True, facecolor="white", edgecolor="none",
+                    labelcolor="#222222", framealpha=.85)
     hatched(plain, 2, 4, True, "", None)
     hatched(damped, 2, 4, True, "", None)
     plain.set_title("Between two walls, undamped", loc="left", pad=16)
@@ -462,7 +465,8 @@ def ladder_chart(results, pyplot):
                 sizes.plot([their_size, their_size], [k - .38, k + .38], color=THEIRS, linewidth=2.4, zorder=5)
                 if abs(theirs - text_at) < .12 * max(theirs, text_at):
                     text_at = max(theirs, text_at)
-        times.annotate(figure_of(time), (text_at, k), xytext=(5, 0), textcoords="offset points", va="center", fontsize=8)
+        times.annotate(figure_of(time), (text_at, k), xytext=(5, 0), textcoords="offset points", va="center",
+                       fontsize=8)
     labels = [RUNGS.get(n, n) if number == "double" else f"history, {NUMBERS[number]}" for n, _, number in rungs]
     times.set_yticks(range(len(rungs)), labels)
     times.set_ylim(len(rungs) - .4, -.6)
@@ -494,7 +498,8 @@ def beside_chart(results, pyplot):
             times.plot([time.low, time.high], [k + up, k + up], color=INK, linewidth=1, zorder=4)
             ratio = results.speedup(scene)
             text = figure_of(time) + (f"   {figure_of(ratio)} times ours" if who == "lammps" and ratio else "")
-            times.annotate(text, (time.high, k + up), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8)
+            times.annotate(text, (time.high, k + up), xytext=(4, 0), textcoords="offset points", va="center",
+                           fontsize=8)
             sizes.barh(k + up, size, height=.36, color=colour, zorder=3)
             sizes.annotate(f"{size:.0f}", (size, k + up), xytext=(4, 0), textcoords="offset points", va="center",
                            fontsize=8)
@@ -640,9 +645,9 @@ def settle_sentence(results):
             f"{good[0]['nanoseconds_per_second'] / good[-1]['nanoseconds_per_second']:.1f} times less than "
             f"{good[0]['omega_dt']:g}. ")
     if broken:
-        text += (f"At {broken['omega_dt']:g} there are {broken['coordination']:.2f}, at {rows[-1]['omega_dt']:g} "
-                 f"{rows[-1]['coordination']:.2f}: nothing is lost and no error is raised, but the bed does not come to "
-                 "rest.")
+        text += (f"At {broken['omega_dt']:g} there are {broken['coordination']:.2f}, and at {rows[-1]['omega_dt']:g} "
+                 f"there are {rows[-1]['coordination']:.2f}: nothing is lost and no error is raised, but "
+                 "the bed does not come to rest.")
     return text
 
 
@@ -658,8 +663,8 @@ def ladder_sentence(results):
     numbers = sorted((results.time("ladder", *r), r[2]) for r in results.rungs() if r[0] == "history")
     if len(numbers) > 1:
         double = results.rung_time("history")
-        text += (f" Of the numbers, {NUMBERS[numbers[0][1]]} is the quickest with history, {figure_of(double / numbers[0][0])}"
-                 " times as fast as double.")
+        text += (f" Of the numbers, {NUMBERS[numbers[0][1]]} is the quickest with history, "
+                 f"{figure_of(double / numbers[0][0])} times as fast as double.")
     return text
 
 
@@ -686,7 +691,8 @@ def beside_table(results):
         resident = results.field("resident", "beside", scene, "lammps", "double")
         difference = results.field("difference", "same", scene, "kinetic", "double")
         cells = [SCENES[scene][0], cost_cell(ours), cost_cell(theirs), ratio_cell(results.speedup(scene)),
-                 f'<td class="figure">{1e3 / ours:.1f}</td>', f'<td class="figure">{1e3 / theirs:.1f}</td>' if theirs else ""]
+                 f'<td class="figure">{1e3 / ours:.1f}</td>',
+                 f'<td class="figure">{1e3 / theirs:.1f}</td>' if theirs else ""]
         cells += [f'<td class="figure">{s:.0f}</td>' if s else "" for s in (*sizes, resident)]
         cells.append(f'<td class="figure">{difference:.0e}</td>' if difference is not None else "")
         rows.append(cells)
@@ -714,29 +720,30 @@ def hand_table(results):
 
 
 WORK_TEXT = (
-    "Two spheres meet at 1 m/s, at 16 phases of a step; N = 5 · 2^k + 0.37 steps of a contact, since whole numbers would "
-    "let the errors of entry and exit cancel. All laws have the same time of contact, 4.97 ms. What a step costs is "
-    "measured of the same simulation with 4096 spheres in a row. Lower left is best. Green dashes: the tolerance of 1e-2, "
-    "to which restitutions are known; dots: the rounding floor of float coordinates and of lattice<int32>, five units in "
-    "the last place by the overlap. On the right, thin lines are the orders that stand at their ends; where fewer than "
-    "π/2 evaluations fall on a contact (hatched), ω dt is above 2. Implicit damping needs a damped law, and is left out "
-    "of the others; numbers other than double are shown with velocity Verlet only, since rounding does not depend on the "
-    "integrator.")
+    "Two spheres meet at 1 m/s, at 16 phases of a step; N = 5 · 2^k + 0.37 steps of a contact, since whole numbers "
+    "would let the errors of entry and exit cancel. All laws have the same time of contact, 4.97 ms. What a step "
+    "costs is measured of the same simulation with 4096 spheres in a row. Lower left is best. Green dashes: the "
+    "tolerance of 1e-2, to which restitutions are known; dots: the rounding floor of float coordinates and of "
+    "lattice<int32>, five units in the last place by the overlap. On the right, thin lines are the orders that stand "
+    "at their ends; where fewer than π/2 evaluations fall on a contact (hatched), ω dt is above 2. Implicit damping "
+    "needs a damped law, and is left out of the others; numbers other than double are shown with velocity Verlet "
+    "only, since rounding does not depend on the integrator.")
 OBLIQUE_TEXT = (
-    "A sphere hits a floor at 45 degrees, and rolls off (μ = 0.5) or slides (μ = 0.2): rms error of its velocity and of "
-    "the velocity of its surface. Integrators with several stages and those that move no spins do not compile with a "
-    "contact that remembers; a lattice is periodic, and a floor is not; Hertz and Mindlin have no closed form.")
+    "A sphere hits a floor at 45 degrees, and rolls off (μ = 0.5) or slides (μ = 0.2): rms error of its velocity and "
+    "of the velocity of its surface. Integrators with several stages and those that move no spins do not compile with "
+    "a contact that remembers; a lattice is periodic, and a floor is not; Hertz and Mindlin have no closed form.")
 GAS_TEXT = (
-    "1000 elastic spheres (φ = 0.05): by how much the energy changes in a quarter of a time unit, rms, relative. Collisions win or "
-    "lose energy with the phase of the step in which they begin, so the drift is a sum of as many small errors.")
+    "1000 elastic spheres (φ = 0.05): by how much the energy changes in a quarter of a time unit, rms, relative. "
+    "Collisions win or lose energy with the phase of the step in which they begin, so the drift is a sum of as many "
+    "small errors.")
 PAST_TEXT = (
     "A sphere between two walls is an oscillator that does not lose its contacts: marks at the upper border are runs "
-    "whose error has left the chart. Dashed lines and hatching are theory: 2 for Verlet and symplectic Euler, "
-    "2 (√(1 + ζ²) − ζ) for damping from the half step, and for PEFRL and Runge–Kutta the least ω dt at which the matrix "
-    "of a step has an eigenvalue above 1; explicit Euler is never stable.")
+    "whose error has left the chart. Dashed lines and hatching are theory: 2 for Verlet and symplectic Euler, 2 (√(1 "
+    "+ ζ²) − ζ) for damping from the half step, and for PEFRL and Runge–Kutta the least ω dt at which the matrix of a "
+    "step has an eigenvalue above 1; explicit Euler is never stable. Hatched is what lies beyond 2.")
 LADDER_TEXT = (
-    "A bed of 10000 spheres that has settled once, and in which steps are so short that nothing moves: all models see the "
-    "same contacts, and no list is made anew. Bars of LAMMPS are of the same bed in motion, below.")
+    "A bed of 10000 spheres that has settled once, and in which steps are so short that nothing moves: all models see "
+    "the same contacts, and no list is made anew. Bars of LAMMPS are of the same bed in motion, below.")
 
 
 def figure_element(figure, pyplot, title):
@@ -763,8 +770,8 @@ def sections(results, pyplot):
             if not results.series("impact", law):
                 continue
             step = per_step_of(results, law)
-            parts.append(f"<h3>Impact: {label}</h3>" + text(choice_of(results, "impact", law, TOLERANCE, "cost", law, step,
-                                                                      "an error of the restitution")) +
+            chosen = choice_of(results, "impact", law, TOLERANCE, "cost", law, step, "an error of the restitution")
+            parts.append(f"<h3>Impact: {label}</h3>" + text(chosen) +
                          figure_element(work_precision(results, "impact", law, label, pyplot, per_step=step), pyplot,
                                         label))
         parts.append(order_table(results, "impact", [(law, label) for law, (label, *_) in LAWS.items()]) +
@@ -784,8 +791,9 @@ def sections(results, pyplot):
         parts.append("<h3>Elastic gas</h3>" + text(GAS_TEXT) +
                      text(choice_of(results, "gas", "hooke", 1e-4, "gas_cost", "hooke", step,
                                     "a change of the energy in a quarter of a time unit")) +
-                     figure_element(work_precision(results, "gas", "hooke", "Gas, drift of the energy", pyplot, "gas_cost",
-                                                   "hooke", step, False, 1e-4, "change of the energy in a quarter of a time unit, rms"),
+                     figure_element(work_precision(results, "gas", "hooke", "Gas, drift of the energy", pyplot,
+                                                   "gas_cost", "hooke", step, False, 1e-4,
+                                                   "change of the energy in a quarter of a time unit, rms"),
                                     pyplot, "gas") +
                      order_table(results, "gas", [("hooke", "Hooke")], 1e-4))
     if results.has("walls") or results.has("settle"):
@@ -795,8 +803,8 @@ def sections(results, pyplot):
                      figure_element(past_limit_chart(results, pyplot), pyplot, "stability") + limit_table(results))
     if results.has("past"):
         parts.append("<h3>An impact with too long a step</h3>" +
-                     text("Hatched: fewer than π/2 steps of a contact, where a spring is unstable. A sphere still leaves, "
-                          "but faster than it came.") +
+                     text("Hatched: fewer than π/2 steps of a contact, where a spring is unstable. A sphere still "
+                          "leaves, but faster than it came.") +
                      figure_element(impact_past_chart(results, pyplot), pyplot, "impacts past the limit"))
     if settle_rows(results):
         parts.append("<h3>A bed that settles with too long a step</h3>" + text(settle_sentence(results)) +
@@ -804,8 +812,9 @@ def sections(results, pyplot):
         parts.append(table(["dt / √(m/k)", "Contacts per particle", "Share of the volume", "Mean height, m",
                             "Kinetic energy per particle, J", "µs per simulated second and particle"],
                            [[f"{r['omega_dt']:g}", *(f'<td class="figure">{t}</td>' for t in (
-                               f"{r['coordination']:.3f}", f"{r['packing']:.4f}", f"{r['height']:.3f}", f"{r['kinetic']:.1e}",
-                               figure_of(r["nanoseconds_per_second"] / 1e3)))] for r in settle_rows(results)]))
+                               f"{r['coordination']:.3f}", f"{r['packing']:.4f}", f"{r['height']:.3f}",
+                               f"{r['kinetic']:.1e}", figure_of(r["nanoseconds_per_second"] / 1e3)))]
+                            for r in settle_rows(results)]))
     if results.has("ladder") or results.has("beside"):
         parts.append('<h2 id="ladder">Models and LAMMPS</h2>')
     if results.has("ladder"):
@@ -813,8 +822,8 @@ def sections(results, pyplot):
                      figure_element(ladder_chart(results, pyplot), pyplot, "ladder") + ladder_table(results))
     if results.has("hand"):
         parts.append("<h3>Loops by hand</h3>" + text(
-            "Spheres of the same bed, with a spring and a dashpot, and nothing around them: what one would write for that "
-            "alone, over the same list.") + hand_table(results))
+            "Spheres of the same bed, with a spring and a dashpot, and nothing around them: what one would write for "
+            "that alone, over the same list.") + hand_table(results))
     if results.scenes():
         parts.append("<h3>Beside LAMMPS</h3>" + text(beside_sentence(results)) +
                      figure_element(beside_chart(results, pyplot), pyplot, "LAMMPS") + beside_table(results))
@@ -837,8 +846,8 @@ def markdown(results):
     context = results.contexts[0]
     lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, commit {context['commit']}.", ""]
     if results.scenes():
-        lines += [markdown_row(["scene", "tsubu, ns per particle-step", "LAMMPS", "LAMMPS / tsubu", "bytes per particle",
-                                "LAMMPS"]), "|" + "---|" * 6]
+        lines += [markdown_row(["scene", "tsubu, ns per particle-step", "LAMMPS", "LAMMPS / tsubu",
+                                "bytes per particle", "LAMMPS"]), "|" + "---|" * 6]
         for scene in results.scenes():
             ours, theirs = (results.time("beside", scene, who, "double") for who in ("tsubu", "lammps"))
             sizes = [results.field("bytes", "beside", scene, who, "double") for who in ("tsubu", "lammps")]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A frictionless step by hand: what one would write for equal spheres with a spring and a dashpot, and for nothing else.
+/// A frictionless step by hand: what one would write for equal spheres with a spring and a dashpot, and for nothing
+/// else.
 #pragma once
 
 #include <tsubu/core/lanes.hpp>

@@ -65,7 +65,8 @@ public:
         const double total_height = picture_height + 2 * margin + 34 + 46;
         out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << number(total_width) << ' '
             << number(total_height) << "\" width=\"" << number(total_width) << "\" height=\"" << number(total_height)
-            << "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
+            << "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" "
+               "fill=\"#ffffff\"/>\n"
             << "<defs>\n";
         for (std::size_t c = 0; c < shades; ++c) {
             const auto [r, g, b] = colour(static_cast<double>(c) / (shades - 1));
@@ -126,7 +127,7 @@ private:
         std::nth_element(speeds.begin(), speeds.begin() + at, speeds.end());
         return speeds[static_cast<std::size_t>(at)];
     }
-    /// Spheres behind others need not be drawn: most of a bed. From the near ones on, squares that are covered are noted.
+    /// Spheres behind others need not be drawn: most of a bed. From the near ones on, covered squares are noted.
     [[nodiscard]] static std::vector<bool> find_hidden(const std::vector<seen>& all, const std::array<double, 4>& frame,
                                                        double scale) {
         std::vector<bool> hidden(all.size(), false);
@@ -141,7 +142,8 @@ private:
             if (r < 1) continue;  // dots
             bool is_seen = false;
             for (auto row = static_cast<std::int32_t>(y - r); row <= static_cast<std::int32_t>(y + r); ++row)
-                for (auto column = static_cast<std::int32_t>(x - r); column <= static_cast<std::int32_t>(x + r); ++column) {
+                for (auto column = static_cast<std::int32_t>(x - r); column <= static_cast<std::int32_t>(x + r);
+                     ++column) {
                     if (row < 0 || column < 0 || row >= rows || column >= columns) continue;
                     const double dx = column + 0.5 - x;
                     const double dy = row + 0.5 - y;

@@ -2,13 +2,16 @@
 /// @file
 /// contact: two bodies that overlap, as the laws see them; and the tables of the laws.
 ///
-/// | normal law          | force                                 | order of e | choose it when                           |
-/// |---------------------|---------------------------------------|------------|------------------------------------------|
-/// | hooke_normal        | k d                                   | 2          | the time step is to be as long as can be |
-/// | hooke_dashpot_normal| k d - gamma m* v                      | 1          | bulk flow with a constant restitution    |
-/// | hertz_normal        | 4/3 E* sqrt(R*) d^(3/2)               | 2.5        | single impacts, waves                    |
-/// | hertz_dashpot_normal| a (4/3 E* d - gamma m* v)             | 1.5        | to compare with LAMMPS' gran/hertz       |
-/// | hertz_tsuji_normal  | that, and - alpha sqrt(m* K) d^(1/4) v | 1.25      | elastic spheres with a constant restitution |
+/// | normal law           | force                                  | order of e | choose it when                            |
+/// |----------------------|----------------------------------------|------------|-------------------------------------------|
+/// | hooke_normal         | k d                                    | 2          | the time step is to be as long as can be  |
+/// | hooke_dashpot_normal | k d - gamma m* v                       | 1          | bulk flow with a constant restitution     |
+/// | hertz_normal         | 4/3 E* sqrt(R*) d^(3/2)                | 2.5        | single impacts, waves                     |
+/// | hertz_dashpot_normal | a (4/3 E* d - gamma m* v)              | 1 (1.5)    | to compare with LAMMPS' gran/hertz        |
+/// | hertz_tsuji_normal   | that of Hertz - alpha sqrt(m* K) d^(1/4) v | 1 (1.25) | elastic spheres with a constant restitution |
+///
+/// The order is that in which the error of the restitution falls with the time step of velocity_verlet; in brackets with
+/// implicit_velocity_verlet, whose damping does not see the velocities of the half step.
 ///
 /// | tangential law  | remembers  | choose it when                                                     |
 /// |-----------------|------------|--------------------------------------------------------------------|

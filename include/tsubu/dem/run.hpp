@@ -144,8 +144,11 @@ public:
     [[nodiscard]] vec<D, real> acceleration(std::size_t i) const noexcept { return mover().acceleration(i); }
     /// The forces of all particles where they are, to be called after positions have changed; forces were cleared.
     void evaluate_forces() {
-        if (near_.follow(store_)) at_ = columns_type(store_, box(), bodies());
-        find_forces(how_.time_step);
+        const bool is_new = near_.follow(store_);
+        if (is_new) at_ = columns_type(store_, box(), bodies());
+        find_forces(how_.time_step, [&] {
+            if (!is_new) near_.finish(store_);
+        });
     }
     void end_step() {
         ++steps_;
@@ -190,7 +193,7 @@ private:
         look();
         if (finds_forces) {
             clear_forces();
-            find_forces(0);  // no time passes: what contacts remember stays
+            find_forces(0, [] {});  // no time passes: what contacts remember stays
         }
         is_started_ = true;
     }
@@ -202,13 +205,22 @@ private:
         all.settle("dem::run");
         watching.check_energy(steps_, has_been_at_rest_);
     }
-    void find_forces(double time_step) {
+    /// @param finish  to be called before anything is read of ghosts
+    template <class Finish>
+    void find_forces(double time_step, Finish&& finish) {
         if constexpr (scene::has_contacts) {
             const detail::contact_kernel<scene> kernel(at_, model<typename scene::contact_type>(), time_step);
             auto& memory = near_.memory();
-            kernel.act_on_pairs(near_.pairs(), memory.pair_touches(), memory.pair_springs());
+            const auto pairs = near_.pairs();
+            const auto inner = near_.inner_pairs();
+            kernel.act_on_pairs(pairs.first(inner), memory.pair_touches(), memory.pair_springs());
+            finish();
+            kernel.act_on_pairs(pairs.subspan(inner), memory.pair_touches() + (scene::remembers ? inner : 0),
+                                memory.pair_springs() + (scene::remembers ? inner : 0));
             if constexpr (scene::has_walls)
                 kernel.act_on_walls(near_.near_walls(), near_.walls(), memory.wall_touches(), memory.wall_springs());
+        } else {
+            finish();
         }
         each_spring([&](index_t i, index_t j, const spring& one) {
             const auto d = apart(i, j);

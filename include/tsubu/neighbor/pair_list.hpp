@@ -10,7 +10,7 @@
 #include <tsubu/neighbor/detail/list_checks.hpp>
 #include <tsubu/neighbor/reach.hpp>
 
-#include <algorithm>  // std::max, std::min
+#include <algorithm>  // std::copy_n, std::max, std::min
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint32_t
 #include <limits>     // std::numeric_limits
@@ -60,16 +60,23 @@ public:
         // Which of two is an owned one, and has the lower index, is asked of many pairs in one loop.
         constexpr std::size_t batch = 512;
         std::size_t settled = 0;
+        detail::growing<index_pair> outer(detail::room_after(count_ - inner_count_),
+                                          (std::numeric_limits<std::uint32_t>::max)(), where);
         const auto settle = [&] {
             auto* const first = found.data();
             auto* to = first + settled;
+            auto* to_outer = outer.room(found.size() - settled + 1);
             for (const auto* from = to; from != first + found.size(); ++from) {
                 const auto [a, b] = *from;
-                const auto i = (std::min)(a, b);
-                *to = {i, (std::max)(a, b)};
-                to += i < first_ghost ? 1 : 0;
+                const index_pair pair{(std::min)(a, b), (std::max)(a, b)};
+                const int is_owned = pair.i < first_ghost ? 1 : 0;
+                const int is_inner = pair.j < first_ghost ? 1 : 0;
+                *to = *to_outer = pair;
+                to += is_inner;
+                to_outer += is_owned - is_inner;
             }
             found.up_to(to);
+            outer.up_to(to_outer);
             settled = found.size();
         };
         sorted.each_half([&](const auto& near, std::size_t k, std::size_t begin) {
@@ -78,16 +85,21 @@ public:
             if (found.size() - settled >= batch) settle();
         });
         settle();
+        inner_count_ = found.size();
+        found.up_to(std::copy_n(outer.data(), outer.size(), found.room(outer.size())));
         count_ = found.size();
         pairs_ = found.take();
     }
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return {pairs_.data(), count_}; }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }
+    /// So many pairs, the first ones, are of two owned particles; the others have a ghost, and can wait for its values.
+    [[nodiscard]] std::size_t inner_count() const noexcept { return inner_count_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return pairs_.memory_bytes(); }
 
 private:
     buffer<index_pair> pairs_;
     std::size_t count_ = 0;
+    std::size_t inner_count_ = 0;
 };
 
 }  // namespace tsubu

@@ -175,7 +175,9 @@ private:
     /// The distance of neighbouring coordinates where a particle is [m].
     [[nodiscard]] double resolution(index_t i, std::size_t k) const {
         using coordinate = typename scene::coordinate;
-        if constexpr (is_lattice<coordinate>) {
+        if constexpr (scene::quantities_type::has_offsets) {
+            return of_.box().along(k).length_of(1.0) * static_cast<double>(std::numeric_limits<typename scene::real>::epsilon());
+        } else if constexpr (is_lattice<coordinate>) {
             return of_.box().along(k).length_of(1.0);
         } else {
             const auto x = std::abs(of_.particles()[scene::quantities_type::position][i][k]);

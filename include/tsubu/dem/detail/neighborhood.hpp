@@ -75,16 +75,21 @@ public:
 
     /// No particle goes farther than this until the next call [m].
     void travel(double distance) noexcept { watch_.travel(distance); }
-    /// Ghosts follow their owners, or neighbours are found anew if that is due. @return whether they were. Collective.
+    /// Ghosts begin to follow their owners, or neighbours are found anew if that is due. @return whether they were.
+    /// Collective, and finish after it if they were not.
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
             keep_memory(store);
             renew(store, typename Scene::migration_fields{});
             return true;
         }
-        forward(store, typename Scene::forward_fields{});
+        start_forward(store, typename Scene::forward_fields{});
         return false;
     }
+    /// The values of ghosts are there when this returns. Collective.
+    void finish(store_type& store) { finish_forward(store, typename Scene::forward_fields{}); }
+    /// Of pairs(), how many, the first ones, have no ghost.
+    [[nodiscard]] std::size_t inner_pairs() const noexcept { return pairs_.inner_count(); }
     /// Between two looks: whether lists have been used too long. Collective.
     void check_uses() {
         if (how_.check_every > 1) watch_.check(*on_);
@@ -122,6 +127,14 @@ public:
     }
 
 private:
+    template <auto... F>
+    void start_forward(const store_type& store, fields<F...>) {
+        if constexpr (sizeof...(F) != 0) halo_.start_forward(store, F...);
+    }
+    template <auto... F>
+    void finish_forward(store_type& store, fields<F...>) {
+        if constexpr (sizeof...(F) != 0) halo_.finish_forward(store, F...);
+    }
     /// How far ghosts are needed [m]: as far as particles touch, and the skin. Collective.
     [[nodiscard]] double cutoff(const store_type& store) {
         double touching = 0;

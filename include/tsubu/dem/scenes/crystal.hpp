@@ -64,9 +64,9 @@ struct crystal_scene {
         using position = typename Box::real_position_type;
         position at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = static_cast<typename position::value_type>(x[k]);
-        store.push_back(tsubu::id = static_cast<std::int64_t>(n + 1),
-                        simulation::quantities_type::position = box.from_real(at).position,
-                        simulation::quantities_type::velocity = v);
+        const auto i = store.push_back(tsubu::id = static_cast<std::int64_t>(n + 1),
+                                       simulation::quantities_type::velocity = v);
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, at);
     }
 };
 

@@ -84,9 +84,9 @@ struct gas_scene {
                 origin + ((cell + 0.5) * spacing() + 0.25 * spacing() * signed_unit(k)));
             v[k] = static_cast<real>(std::sqrt(3.0) * signed_unit(3 + k));
         }
-        store.push_back(tsubu::id = first_id + static_cast<std::int64_t>(n),
-                        simulation::quantities_type::position = box.from_real(x).position,
-                        simulation::quantities_type::velocity = v);
+        const auto i = store.push_back(tsubu::id = first_id + static_cast<std::int64_t>(n),
+                                       simulation::quantities_type::velocity = v);
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
     }
 };
 

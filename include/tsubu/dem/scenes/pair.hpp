@@ -10,6 +10,7 @@
 #include <tsubu/domain/lattice.hpp>
 #include <tsubu/store/standard_fields.hpp>
 
+#include <cstddef>  // std::size_t
 #include <cstdint>  // std::int64_t, std::uint64_t
 #include <tuple>    // std::tuple
 
@@ -50,11 +51,11 @@ struct pair_scene {
         using number = typename Box::real_type;
         const double side = n == 0 ? -1 : 1;
         const double gap = speed * time_step * phase;
-        store.push_back(
+        const auto i = store.push_back(
             tsubu::id = first_id + static_cast<std::int64_t>(n),
-            simulation::quantities_type::position =
-                box.from_real({static_cast<number>(origin + side * (radius + gap / 2))}).position,
             simulation::quantities_type::velocity = {static_cast<real>(-side * speed / 2)});
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box,
+                                                  {static_cast<number>(origin + side * (radius + gap / 2))});
     }
 };
 

@@ -81,9 +81,9 @@ struct settle_scene {
                                                         0.08 * signed_unit(k));
             v[k] = static_cast<real>(0.5 * signed_unit(3 + k));
         }
-        store.push_back(tsubu::id = static_cast<std::int64_t>(id),
-                        simulation::quantities_type::position = box.from_real(x).position,
-                        simulation::quantities_type::velocity = v);
+        const auto i = store.push_back(tsubu::id = static_cast<std::int64_t>(id),
+                                       simulation::quantities_type::velocity = v);
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
     }
 };
 

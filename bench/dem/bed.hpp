@@ -90,15 +90,15 @@ struct bed_scene {
             v[k] = static_cast<typename simulation::real>(bed[tsubu::velocity<3>][static_cast<std::size_t>(n)][k]);
         }
         const auto name = bed[tsubu::id][static_cast<std::size_t>(n)];
-        const auto first = store.owned_count();
-        if constexpr (Bodies::are_equal)
-            store.push_back(tsubu::id = name, q::position = box.from_real(x).position, q::velocity = v);
-        else
-            store.push_back(tsubu::id = name, q::position = box.from_real(x).position, q::velocity = v,
-                            tsubu::radius = 0.5, tsubu::mass = 1.0);
+        const auto i = static_cast<std::size_t>(store.push_back(tsubu::id = name, q::velocity = v));
+        tsubu::dem::put<q>(store, i, box, x);
+        if constexpr (!Bodies::are_equal) {
+            store[tsubu::radius][i] = 0.5;
+            store[tsubu::mass][i] = 1;
+        }
         if constexpr (simulation::turns)
             for (std::size_t k = 0; k < 3; ++k)
-                store[q::angular_velocity][first][k] = static_cast<typename simulation::real>(
+                store[q::angular_velocity][i][k] = static_cast<typename simulation::real>(
                     bed[tsubu::angular_velocity<3>][static_cast<std::size_t>(n)][k]);
     }
 };

@@ -148,7 +148,7 @@ void ladder(row_reporter& report, extent how_much) {
                                                                                              history));
     rungs.push_back(
         bed_rung<hooke_dashpot<>, implicit_velocity_verlet>("implicit", "dashpot", hooke_dashpot<>{{k, 50}}));
-    add_numbers<float, mixed_precision<double, float>, lattice<std::int64_t>, lattice<std::int32_t>,
+    add_numbers<float, mixed_precision<double, float>, in_cells<float>, lattice<std::int64_t>, lattice<std::int32_t>,
                 mixed_precision<lattice<std::int64_t>, float>>(rungs, history);
     take_turns(report, rungs, rounds_of(how_much));
 }

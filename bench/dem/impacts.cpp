@@ -105,9 +105,9 @@ struct row_scene {
     template <class Store, class Box>
     void place(Store& store, const Box& box, std::uint64_t n) const {
         using number = typename Box::real_type;
-        store.push_back(tsubu::id = static_cast<std::int64_t>(n),
-                        simulation::quantities_type::position =
-                            box.from_real({static_cast<number>((double(n) + 0.5) * spacing)}).position);
+        const auto i = store.push_back(tsubu::id = static_cast<std::int64_t>(n));
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box,
+                                                  {static_cast<number>((double(n) + 0.5) * spacing)});
     }
 };
 
@@ -166,7 +166,8 @@ void add_law(std::vector<sweep>& all) {
     add_integrators<Law, velocity_verlet, symplectic_euler, pefrl, runge_kutta_4, explicit_euler>(all);
     // Without damping there is nothing to solve for: it would be velocity_verlet.
     if constexpr (Law::normal_type::is_damped) add_integrators<Law, implicit_velocity_verlet>(all);
-    add_numbers<Law, float, mixed_precision<double, float>, lattice<std::int64_t>, lattice<std::int32_t>>(all);
+    add_numbers<Law, float, mixed_precision<double, float>, in_cells<float>, lattice<std::int64_t>,
+                lattice<std::int32_t>>(all);
 }
 
 // ---------------------------------------------------------------------------------------------------------------

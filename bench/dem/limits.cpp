@@ -156,12 +156,14 @@ void gas(row_reporter& report, extent how_much) {
     drift<runge_kutta_4>(report, how_much);
     drift<velocity_verlet, float>(report, how_much);
     drift<velocity_verlet, mixed_precision<double, float>>(report, how_much);
+    drift<velocity_verlet, in_cells<float>>(report, how_much);
     drift<velocity_verlet, lattice<std::int64_t>>(report, how_much);
     drift<velocity_verlet, lattice<std::int32_t>>(report, how_much);
     take_turns(report,
                {gas_cost<velocity_verlet>(), gas_cost<symplectic_euler>(), gas_cost<pefrl>(), gas_cost<runge_kutta_4>(),
                 gas_cost<velocity_verlet, float>(), gas_cost<velocity_verlet, mixed_precision<double, float>>(),
-                gas_cost<velocity_verlet, lattice<std::int64_t>>(), gas_cost<velocity_verlet, lattice<std::int32_t>>()},
+                gas_cost<velocity_verlet, in_cells<float>>(), gas_cost<velocity_verlet, lattice<std::int64_t>>(),
+                gas_cost<velocity_verlet, lattice<std::int32_t>>()},
                rounds_of(how_much));
 }
 

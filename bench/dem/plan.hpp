@@ -50,6 +50,8 @@ inline constexpr const char* number_name<float> = "float";
 template <>
 inline constexpr const char* number_name<tsubu::dem::mixed_precision<double, float>> = "mixed";
 template <>
+inline constexpr const char* number_name<tsubu::dem::in_cells<float>> = "in_cells";
+template <>
 inline constexpr const char* number_name<tsubu::lattice<std::int64_t>> = "lattice64";
 template <>
 inline constexpr const char* number_name<tsubu::lattice<std::int32_t>> = "lattice32";

@@ -7,9 +7,9 @@ from collections import defaultdict
 from .page import (GRID, INK, Claim, Refusal, figure_of, limits, listed, markdown_claims, markdown_row, middle,
                    plain_ticks, quotient, ratio_cell, svg_of, table)
 
-LAWS = {  # name: label, order of the restitution's error with velocity_verlet, whether it is damped
-    "hooke": ("Hooke", 2, False), "dashpot": ("Hooke and dashpot", 1, True),
-    "hertz": ("Hertz", 2.5, False), "tsuji": ("Hertz and Tsuji", 1.25, True)}
+LAWS = {  # name: label, order of the restitution's error, with which integrator
+    "hooke": ("Hooke", 2, "velocity_verlet"), "dashpot": ("Hooke and dashpot", 1, "velocity_verlet"),
+    "hertz": ("Hertz", 2.5, "velocity_verlet"), "tsuji": ("Hertz and Tsuji", 1.25, "implicit_velocity_verlet")}
 SERIES = (  # integrator, number, label, colour, line, marker
     ("velocity_verlet", "double", "velocity Verlet", "#2a8fd0", "-", "o"),
     ("implicit_velocity_verlet", "double", "… with implicit damping", "#7b52ab", "-", "s"),
@@ -19,6 +19,7 @@ SERIES = (  # integrator, number, label, colour, line, marker
     ("explicit_euler", "double", "explicit Euler", "#888888", "-", "x"),
     ("velocity_verlet", "mixed", "Verlet, double x, float v and f", "#0b5a8f", "--", "."),
     ("velocity_verlet", "float", "Verlet, float", "#e377a2", "--", "."),
+    ("velocity_verlet", "in_cells", "Verlet, in_cells<float>", "#5f6f1f", "-.", "."),
     ("velocity_verlet", "lattice64", "Verlet, lattice<int64>", "#16a3a3", ":", "."),
     ("velocity_verlet", "lattice32", "Verlet, lattice<int32>", "#8a5a2b", ":", "."))
 ORDERS = (1, 1.25, 1.5, 2, 2.5, 4)
@@ -33,8 +34,9 @@ RUNGS = {  # name: label; base: which rung it is compared with stands in the row
     "history": "+ history", "hertz": "Hertz", "hertz_dashpot": "+ dashpot", "mindlin": "+ rotation, Mindlin, history",
     "tsuji": "Tsuji for the dashpot", "rolling": "+ rolling resistance", "dmt": "+ DMT cohesion",
     "own_sizes": "history, each its own size", "implicit": "dashpot, implicit damping"}
-NUMBERS = {"double": "double", "mixed": "double x, float v and f", "float": "float", "lattice64": "lattice<int64>",
-           "lattice32": "lattice<int32>", "lattice64_float": "lattice<int64>, float v and f"}
+NUMBERS = {"double": "double", "mixed": "double x, float v and f", "float": "float", "in_cells": "in_cells<float>",
+           "lattice64": "lattice<int64>", "lattice32": "lattice<int32>",
+           "lattice64_float": "lattice<int64>, float v and f"}
 SCENES = {  # name: label, promise over LAMMPS, the rung of the same law in the same bed
     "gas": ("gas, 10648", 2, None), "bed_frictionless": ("bed, frictionless, 1e4", 2, "dashpot"),
     "settle_1e4": ("settle, falling, 1e4", 1.5, None), "settle_bed_1e4": ("settle, settled bed, 1e4", 1.5, "history"),
@@ -165,8 +167,8 @@ def all_claims(results):
     for task in ("forces", "motion"):
         by_hand.add(results.over_hand(task), task)
     orders = Claim("Order of the restitution's error less that of theory", ORDER_PROMISE, "", at_least=False)
-    for law, (label, order, _) in LAWS.items():
-        found = order_of(results.errors("impact", law, "velocity_verlet", "double"))
+    for law, (label, order, integrator) in LAWS.items():
+        found = order_of(results.errors("impact", law, integrator, "double"))
         if found:
             orders.add(abs(found - order), f"{label}: {found:.2f}, {order:g}")
     return claims + [frictionless, others, memory, same, ranks, by_hand, orders]

@@ -28,6 +28,7 @@ LOST = 1e9        # an error that is none any more
 # 5 units in the last place of a coordinate, by the greatest overlap of 1.58e-3 m: at 0.5 m, and in a box of 4 m
 FLOORS = {"float": 5 * 2.0**-24 / 1.58e-3, "lattice<int32>": 5 * 4 * 2.0**-32 / 1.58e-3}
 FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
+FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
 
 RUNGS = {  # name: label; base: which rung it is compared with stands in the rows
     "motion": "motion alone, no contacts", "hooke": "Hooke", "dashpot": "+ dashpot", "coulomb": "+ rotation, Coulomb",
@@ -197,6 +198,10 @@ def legend_below(figure, axes, columns, at=-.01):
             found.setdefault(label, handle)
     figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(.5, at), ncol=columns,
                   frameon=False, fontsize=8.5)
+
+
+def legend_above(axes, handles, labels):
+    axes.legend(handles, labels, loc="lower right", bbox_to_anchor=(1.01, .985), ncol=2, frameon=False, fontsize=8.5)
 
 
 def hatched(axes, low, high, upright, label, where=None):
@@ -482,7 +487,7 @@ def ladder_chart(results, pyplot):
     times.set_title(f"The same dense bed, {contacts:.2f} contacts per particle", loc="left")
     handles, names = times.get_legend_handles_labels()
     if names:
-        times.legend(handles[:1], names[:1], loc="lower right", frameon=False, fontsize=8.5)
+        legend_above(times, handles[:1], names[:1])
     return figure
 
 
@@ -499,7 +504,7 @@ def beside_chart(results, pyplot):
             times.barh(k + up, time, height=.36, color=colour, zorder=3, label=label if k == 0 else None)
             times.plot([time.low, time.high], [k + up, k + up], color=INK, linewidth=1, zorder=4)
             ratio = results.speedup(scene)
-            text = figure_of(time) + (f"   {figure_of(ratio)} times ours" if who == "lammps" and ratio else "")
+            text = figure_of(time) + (f" · {figure_of(ratio)} times ours" if who == "lammps" and ratio else "")
             times.annotate(text, (time.high, k + up), xytext=(4, 0), textcoords="offset points", va="center",
                            fontsize=8)
             sizes.barh(k + up, size, height=.36, color=colour, zorder=3)
@@ -509,13 +514,13 @@ def beside_chart(results, pyplot):
     times.set_ylim(len(scenes) - .4, -.6)
     times.set_xlabel("ns per particle-step")
     sizes.set_xlabel("bytes per particle")
-    times.set_xlim(0, times.get_xlim()[1] * 1.2)
+    times.set_xlim(0, times.get_xlim()[1] * 1.3)
     sizes.set_xlim(0, sizes.get_xlim()[1] * 1.1)
     for axes in (times, sizes):
         axes.grid(True, axis="x")
     sizes.tick_params(left=False)
     times.set_title("Beside LAMMPS, one core", loc="left")
-    times.legend(loc="lower right", frameon=False, fontsize=8.5)
+    legend_above(times, *times.get_legend_handles_labels())
     return figure
 
 
@@ -745,7 +750,7 @@ PAST_TEXT = (
     "step has an eigenvalue above 1; explicit Euler is never stable. Hatched is what lies beyond 2.")
 LADDER_TEXT = (
     "A bed of 10000 spheres that has settled once, and in which steps are so short that nothing moves: all models see "
-    "the same contacts, and no list is made anew. Bars of LAMMPS are of the same bed in motion, below.")
+    "the same contacts, and no list is made anew. Marks of LAMMPS are of the same bed in motion, below.")
 
 
 def figure_element(figure, pyplot, title):

@@ -97,9 +97,9 @@ timed_contender rung(const std::string& name, const std::string& base, const Sce
                      const std::string& number = "double") {
     using run_type = typename decltype(stage(scene, alone()))::element_type;
     std::shared_ptr<run_type> made = stage(scene, alone());
-    const std::size_t steps = 100;
+    constexpr std::size_t steps = 100;
     return {"dem/ladder/" + name + "/" + base + "/" + number, static_cast<double>(steps * scene.count()),
-            [made, steps](row_fields& fields) {
+            [made](row_fields& fields) {
                 const auto lists = made->renewals();
                 const double seconds = seconds_of([&] { made->steps(steps); });
                 const auto n = static_cast<double>(made->particles().owned_count());

@@ -103,6 +103,7 @@
 #include <tsubu/comm/shared_restart.hpp>
 #include <tsubu/comm/transport.hpp>
 
+#include <tsubu/neighbor/neighbor_list.hpp>
 #include <tsubu/neighbor/pair_list.hpp>
 #include <tsubu/neighbor/reach.hpp>
 #include <tsubu/neighbor/skin_watch.hpp>
@@ -116,6 +117,7 @@
 #include <tsubu/dem/gravity.hpp>
 #include <tsubu/dem/guards.hpp>
 #include <tsubu/dem/implicit_velocity_verlet.hpp>
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/model.hpp>
 #include <tsubu/dem/normal_laws.hpp>

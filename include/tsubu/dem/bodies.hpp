@@ -41,6 +41,7 @@ struct equal_spheres {
                                               "give a finite mass above 0; to hold particles fast take spheres");
     }
 };
+static_assert(model<equal_spheres>);
 
 /// Each particle has its own radius and mass, in the fields tsubu::radius and tsubu::mass. One of infinite mass stays
 /// where it is, or goes on at its velocity.
@@ -58,5 +59,6 @@ struct spheres {
 
     void check() const {}
 };
+static_assert(model<spheres>);
 
 }  // namespace tsubu::dem

@@ -115,6 +115,10 @@ public:
     /// Any order of the parts. @throws input_error if a parameter is negative, 0 where it may not be, or not finite.
     explicit contact_law(const Normal& normal, const Parts&... parts) : normal_(normal) {
         (take(parts), ...);
+        check();
+    }
+    /// @throws input_error as the constructor.
+    void check() const {
         normal_.check();
         tangential_.check();
         rolling_.check();
@@ -183,6 +187,7 @@ private:
 
 template <class... Parts>
 using hooke = contact_law<hooke_normal, Parts...>;
+static_assert(model<hooke<>>);
 template <class... Parts>
 using hooke_dashpot = contact_law<hooke_dashpot_normal, Parts...>;
 template <class... Parts>

@@ -3,6 +3,7 @@
 /// explicit_euler: why not.
 #pragma once
 
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cstddef>  // std::size_t
@@ -11,7 +12,7 @@ namespace tsubu::dem {
 
 /// A drift with the old velocities, and a kick with the old forces.
 ///
-/// Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains energy, by
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains energy, by
 /// (omega dt)^2 per step: for no time step it is stable.
 /// Choose it to see that. Do not otherwise.
 struct explicit_euler {
@@ -32,5 +33,6 @@ struct explicit_euler {
         }
     }
 };
+static_assert(integrator<explicit_euler>);
 
 }  // namespace tsubu::dem

@@ -23,5 +23,6 @@ struct gravity {
 
     vec<3> acceleration;  ///< [m/s^2]; in D dimensions the first D
 };
+static_assert(model<gravity>);
 
 }  // namespace tsubu::dem

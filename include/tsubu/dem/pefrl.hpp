@@ -3,6 +3,7 @@
 /// pefrl: a symplectic method of fourth order.
 #pragma once
 
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cstddef>  // std::size_t
@@ -11,7 +12,7 @@ namespace tsubu::dem {
 
 /// Drifts and kicks in turn, four of these, with coefficients that keep the error of fourth order small.
 ///
-/// Cost: four force evaluations per step; bytes: none of its own.
+/// Concept: integrator. Cost: four force evaluations per step; bytes: none of its own.
 /// Order: 4 for smooth forces; of a contact what that allows: 2 to 2.5. Damping sees the velocities of the stages.
 /// Choose it for smooth problems at high accuracy: modes of bonded chains. Do not for collisions: at equal cost
 /// velocity_verlet is more accurate. Contacts that remember do not compile with it.
@@ -49,5 +50,6 @@ private:
         run.kick(kicked);
     }
 };
+static_assert(integrator<pefrl>);
 
 }  // namespace tsubu::dem

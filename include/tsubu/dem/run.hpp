@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tsubu/comm/agreement.hpp>
+#include <tsubu/comm/duplicate_ids.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
@@ -45,7 +46,7 @@ class run;
 ///
 /// Collective: start, resume and steps, with the same box, options and models on all ranks.
 /// Threads:    one at a time.
-template <std::size_t D, class Number, class Integrator, class... Models, transport Transport>
+template <std::size_t D, number_policy Number, integrator Integrator, model... Models, transport Transport>
 class run<simulation<D, Number, Integrator, Models...>, Transport> {
 public:
     using scene = simulation<D, Number, Integrator, Models...>;
@@ -188,6 +189,7 @@ private:
         all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
+        refuse_duplicates();
         near_.renew(store_, typename scene::restart_fields{});
         at_ = columns_type(store_, box(), bodies());
         look();
@@ -196,6 +198,14 @@ private:
             find_forces(0, [] {});  // no time passes: what contacts remember stays
         }
         is_started_ = true;
+    }
+    void refuse_duplicates() {
+        const auto twice = duplicate_ids(*on_, store_.owned()[tsubu::id]);
+        if (twice.empty()) return;
+        tsubu::detail::raise<input_error>("dem::run::start",
+                                          std::to_string(twice.total) + " ids are given to more than one particle" +
+                                              (twice.here.empty() ? "" : ", " + std::to_string(twice.here[0].id) + " is one"),
+                                          "give each particle its own: contacts are remembered by it");
     }
     void look() {
         detail::watcher<run> watching(*this);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cstddef>  // std::size_t
@@ -12,7 +13,7 @@ namespace tsubu::dem {
 
 /// The classical Runge-Kutta method.
 ///
-/// Cost: four force evaluations per step; bytes: 4 D numbers for what the step began with and the sum of its slopes.
+/// Concept: integrator. Cost: four force evaluations per step; bytes: 4 D numbers for what the step began with and the sum of its slopes.
 /// Order: 4 for smooth forces, with velocities too; of a contact what that allows. Energy drifts.
 /// Choose it for smooth problems with damping. Do not for collisions, nor for long runs without damping: pefrl. What
 /// makes particles spin does not compile with it.
@@ -97,5 +98,6 @@ private:
         run.evaluate_forces();
     }
 };
+static_assert(integrator<runge_kutta_4>);
 
 }  // namespace tsubu::dem

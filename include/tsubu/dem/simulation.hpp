@@ -7,6 +7,7 @@
 #include <tsubu/dem/bodies.hpp>
 #include <tsubu/dem/contact_law.hpp>
 #include <tsubu/dem/gravity.hpp>
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/dem/model.hpp>
 #include <tsubu/dem/quantities.hpp>
 #include <tsubu/dem/walls.hpp>
@@ -57,7 +58,7 @@ struct union_of_all<First, Rest...> {
 /// @tparam Number      a number_policy: double, mixed_precision<double, float>, lattice<std::int64_t>, ...
 /// @tparam Integrator  velocity_verlet, symplectic_euler, explicit_euler, runge_kutta_4, pefrl
 /// @tparam Models      each at most once: a contact_law, walls, springs, gravity, and equal_spheres (default) or spheres
-template <std::size_t D, number_policy Number, class Integrator, model... Models>
+template <std::size_t D, number_policy Number, integrator Integrator, model... Models>
 struct simulation {
     static_assert(D >= 1 && D <= 3, "a scene has 1, 2 or 3 dimensions");
     static_assert(detail::models_for<model_role::contacts, Models...> <= 1, "a scene has one contact law");

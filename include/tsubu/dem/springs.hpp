@@ -49,5 +49,6 @@ struct springs {
                                                   "give finite numbers of at least 0");
     }
 };
+static_assert(model<springs>);
 
 }  // namespace tsubu::dem

@@ -3,6 +3,7 @@
 /// symplectic_euler: a kick, then a drift.
 #pragma once
 
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cstddef>  // std::size_t
@@ -11,7 +12,7 @@ namespace tsubu::dem {
 
 /// A kick with the forces of the old positions, then a drift with the new velocities.
 ///
-/// Cost: one force evaluation per step; bytes: none of its own. Order: 1; energy does not drift.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; energy does not drift.
 /// Choose it to reproduce codes that have it. Do not otherwise: velocity_verlet costs the same and has order 2.
 struct symplectic_euler {
     static constexpr unsigned force_evaluations = 1;
@@ -29,5 +30,6 @@ struct symplectic_euler {
         }
     }
 };
+static_assert(integrator<symplectic_euler>);
 
 }  // namespace tsubu::dem

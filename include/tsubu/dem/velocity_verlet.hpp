@@ -3,6 +3,7 @@
 /// velocity_verlet: half a kick, a drift, half a kick.
 #pragma once
 
+#include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cstddef>  // std::size_t
@@ -11,7 +12,7 @@ namespace tsubu::dem {
 
 /// Half a kick, a drift, half a kick; damping sees the velocities of the half step, as in LAMMPS.
 ///
-/// Cost: one force evaluation per step; bytes: none of its own.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own.
 /// Order: 2, or what the contact allows; 1 with a dashpot. Stable for omega dt < 2 (sqrt(1 + z^2) - z), z the damping
 /// ratio.
 /// Choose it unless a measurement says otherwise: at equal cost nothing is more accurate in collisions.
@@ -37,5 +38,6 @@ struct velocity_verlet {
         if (steps != 0) run.kick(h / 2);
     }
 };
+static_assert(integrator<velocity_verlet>);
 
 }  // namespace tsubu::dem

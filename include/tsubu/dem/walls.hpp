@@ -50,5 +50,6 @@ struct walls {
         }
     }
 };
+static_assert(model<walls>);
 
 }  // namespace tsubu::dem

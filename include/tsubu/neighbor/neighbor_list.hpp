@@ -29,9 +29,9 @@ namespace tsubu {
 ///
 /// Near are two of which the distance is less than the reach. The order depends on the input alone.
 ///
-/// Choose it where each particle gathers from all of its neighbours, or threads write to one particle each. Do not where
-/// what i does to j is the opposite of what j does to i, and one thread does it: pair_list has each pair once, is built
-/// in half to two thirds of the time, and lets each force be computed once.
+/// Choose it where each particle gathers from all of its neighbours, or threads write to one particle each. Do not
+/// where what i does to j is the opposite of what j does to i, and one thread does it: pair_list has each pair once, is
+/// built in two thirds of the time, and lets each force be computed once.
 ///
 /// Bytes:   4 to 4.5 per neighbour (each pair of owned particles is two) and 8 per owned particle; while it is built
 ///          8 D + 12 per particle, and 4 to 20 for cells. A pair_list has 8 to 9 per pair, and none per particle.
@@ -45,13 +45,8 @@ public:
     /// Complexity: O(N) if the density is bounded, and the box of all particles not much larger than what they fill.
     template <point_positions Positions, pair_reach Reach>
     void build(const Positions& x, std::size_t owned, const Reach& reach) {
-        using real = detail::number_of_position<Positions>;
         constexpr auto where = "neighbor_list::build";
-        const auto count = static_cast<std::size_t>(x.size());
-        const double greatest = reach.greatest(count);
-        detail::check_list<real>(where, count, owned, greatest);
-        const detail::cells<detail::dimension_of<detail::position_in<Positions>>, real> sorted(
-            where, x, static_cast<real>(greatest));
+        const auto sorted = detail::sorted_into_cells(where, x, owned, reach);
         detail::growing<index_t> found(detail::room_after((std::max)(count_, owned)),
                                        (std::numeric_limits<std::uint32_t>::max)(), where);
         buffer<row> rows(owned, {});

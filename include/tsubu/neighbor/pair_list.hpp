@@ -47,13 +47,8 @@ public:
     /// Complexity: O(N) if the density is bounded, and the box of all particles not much larger than what they fill.
     template <point_positions Positions, pair_reach Reach>
     void build(const Positions& x, std::size_t owned, const Reach& reach) {
-        using real = detail::number_of_position<Positions>;
         constexpr auto where = "pair_list::build";
-        const auto count = static_cast<std::size_t>(x.size());
-        const double greatest = reach.greatest(count);
-        detail::check_list<real>(where, count, owned, greatest);
-        const detail::cells<detail::dimension_of<detail::position_in<Positions>>, real> sorted(
-            where, x, static_cast<real>(greatest));
+        const auto sorted = detail::sorted_into_cells(where, x, owned, reach);
         detail::growing<index_pair> found(detail::room_after((std::max)(count_, owned)),
                                           (std::numeric_limits<std::uint32_t>::max)(), where);
         const auto first_ghost = static_cast<index_t>(owned);
@@ -81,7 +76,8 @@ public:
         };
         sorted.each_half([&](const auto& near, std::size_t k, std::size_t begin) {
             const auto a = near.index(k);
-            found.up_to(near.near(k, begin, reach, found.room(near.most()), [a](index_t b) { return index_pair{a, b}; }));
+            auto* const to = found.room(near.most());
+            found.up_to(near.near(k, begin, reach, to, [a](index_t b) { return index_pair{a, b}; }));
             if (found.size() - settled >= batch) settle();
         });
         settle();

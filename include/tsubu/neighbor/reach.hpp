@@ -55,7 +55,8 @@ struct radii_reach {
     [[nodiscard]] double greatest(std::size_t count) const {
         if (radii.size() < count)
             detail::raise<input_error>("radii_reach",
-                                       std::to_string(radii.size()) + " radii of " + std::to_string(count) + " particles",
+                                       std::to_string(radii.size()) + " radii of " + std::to_string(count) +
+                                           " particles",
                                        "give those of the ghosts too");
         if (!(skin >= 0))
             detail::raise<input_error>("radii_reach", "a skin of " + detail::shown(skin) + " m", "give at least 0");

@@ -9,8 +9,8 @@
 #include <tsubu/domain/interval.hpp>
 
 #include <limits>  // std::numeric_limits
-#include <span>     // std::span
-#include <string>   // std::to_string
+#include <span>    // std::span
+#include <string>  // std::to_string
 
 namespace tsubu {
 
@@ -89,8 +89,8 @@ private:
                                        detail::shown(travelled) + " m each, more than half of the skin of " +
                                        detail::shown(skin_) + " m; it was looked at every " + std::to_string(every_) +
                                        " steps",
-                                   "look more often, or take a thicker skin or a smaller time step: 2 v_max dt every is "
-                                   "to be at most the skin");
+                                   "look more often, or take a thicker skin or a smaller time step: 2 v_max dt every "
+                                   "is to be at most the skin");
     }
 
     double skin_;

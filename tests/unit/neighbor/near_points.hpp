@@ -72,6 +72,8 @@ std::vector<cloud<D, Real>> clouds() {
     all.push_back({"one", {spread[0]}, 1});
     all.push_back({"random", spread, 1});
     all.push_back({"random, all in one cell", spread, 1000});
+    // More than there is room for at first, and stretches of more than a chunk.
+    all.push_back({"many in few cells", scattered<D, Real>(1200, 2, 7), 0.9});
     all.push_back({"random, hardly any near", spread, 0.05});
     all.push_back({"random, far away", moved<D, Real>(spread, 1, sizeof(Real) == 8 ? 1e9 : 1e4), 1});
     all.push_back({"random, small", moved<D, Real>(spread, 1e-9, 0), 1e-9});
@@ -89,8 +91,9 @@ std::vector<cloud<D, Real>> clouds() {
     strays[33][0] = static_cast<Real>(-1e30);
     all.push_back({"with strays", strays, 1});
     points<D, Real> crowds;
+    const auto crowd = scattered<D, Real>(50, 1, 5);
     for (int c = 0; c < 5; ++c)
-        for (const auto& at : moved<D, Real>(scattered<D, Real>(50, 1, 5), std::pow(0.1, c), 3 * c)) crowds.push_back(at);
+        for (const auto& at : moved<D, Real>(crowd, std::pow(0.1, c), 3 * c)) crowds.push_back(at);
     all.push_back({"crowded", crowds, 0.3});
     return all;
 }

@@ -61,39 +61,41 @@ TEMPLATE_TEST_CASE_SIG("a pair list reaches as far as two radii and the skin", "
             const tsubu::radii_reach<> reach{radii, skin};
             tsubu::pair_list list;
             list.build(cloud.x, cloud.x.size() * 3 / 4, reach);
-            CHECK(near_points::sorted(list) ==
-                  near_points::by_comparing_all(cloud.x, cloud.x.size() * 3 / 4, reach));
+            CHECK(near_points::sorted(list) == near_points::by_comparing_all(cloud.x, cloud.x.size() * 3 / 4, reach));
         }
     }
 }
 
-// Where the number of a cell is rounded, two points may be put two cells apart that are nearer than the reach.
+// Where the number of a cell is rounded, two points may be put two cells apart that are nearer than the reach: one just
+// below the border of a cell, the other as far above it as is near.
 TEMPLATE_TEST_CASE("pairs just inside the reach are found wherever they are", "[neighbor][pair_list]", float, double) {
     using limits = std::numeric_limits<TestType>;
     for (const auto start : {TestType(0), TestType(1000), TestType(-3e6)})
-        for (const auto reach : {TestType(0.1), TestType(1) / 3, TestType(0.7)}) {
-            points<1, TestType> x;
-            auto at = start;
-            for (int i = 0; i < 3000; ++i) {
-                x.push_back({at});
-                // The last place of which the distance, as it is rounded, is below the reach.
-                auto next = at + reach;
-                while (!((next - at) * (next - at) < reach * reach)) next = std::nextafter(next, -limits::infinity());
-                at = next;
+        for (const auto reach : {TestType(0.1), TestType(1) / 3, TestType(0.7), TestType(1) + limits::epsilon()}) {
+            points<1, TestType> x{{start}};
+            for (int cell = 1; cell < 1000; ++cell) {
+                auto below = start + static_cast<TestType>(cell) * reach;
+                for (int places = 0; places < 3; ++places) {
+                    auto above = below + reach;
+                    while (!((above - below) * (above - below) < reach * reach))
+                        above = std::nextafter(above, -limits::infinity());
+                    x.push_back({below});
+                    x.push_back({above});
+                    below = std::nextafter(below, -limits::infinity());
+                }
             }
             tsubu::pair_list list;
-            const tsubu::same_reach near{static_cast<double>(reach)};
-            list.build(x, x.size(), near);
+            list.build(x, x.size(), tsubu::same_reach{static_cast<double>(reach)});
             INFO("from " << start << ", reach " << reach);
-            std::size_t missing = 0;
             const auto found = near_points::sorted(list);
-            for (std::size_t i = 0; i + 1 < x.size(); ++i)
+            std::size_t missing = 0;
+            for (std::size_t i = 1; i < x.size(); i += 2)
                 missing += !std::binary_search(found.begin(), found.end(), near_points::pair(i, i + 1));
             CHECK(missing == 0);
         }
 }
 
-TEST_CASE("points that are sorted have sorted pairs, and the order depends on the input alone", "[neighbor][pair_list]") {
+TEST_CASE("sorted points have sorted pairs, and the order depends on the input alone", "[neighbor][pair_list]") {
     auto x = near_points::scattered<1, double>(500, 200, 8);
     std::sort(x.begin(), x.end());
     tsubu::pair_list list;
@@ -109,6 +111,38 @@ TEST_CASE("points that are sorted have sorted pairs, and the order depends on th
     for (std::size_t p = 0; p < list.size(); ++p) {
         REQUIRE(list.pairs()[p].i == again.pairs()[p].i);
         REQUIRE(list.pairs()[p].j == again.pairs()[p].j);
+    }
+}
+
+/// Counts how often two are compared.
+struct counted_reach {
+    double distance;
+    std::size_t* count;
+
+    double greatest(std::size_t) const { return distance; }
+    template <class Real>
+    Real square(tsubu::index_t, tsubu::index_t) const noexcept {
+        ++*count;
+        return static_cast<Real>(distance * distance);
+    }
+};
+
+// Cells that all of them fit in would have most particles in one of them.
+TEMPLATE_TEST_CASE("a few far away do not make the others be compared with each other", "[neighbor][pair_list]", float,
+                   double) {
+    const auto near = near_points::scattered<3, TestType>(4000, 16, 13);
+    std::size_t least = 0;
+    tsubu::pair_list list;
+    list.build(near, near.size(), counted_reach{1, &least});
+    CHECK(least < 30 * near.size());
+    for (const double away : {1e2, 1e4, 1e9, 1e30}) {
+        auto x = near;
+        for (std::size_t i = 0; i < 20; ++i) x[i * 100][i % 3] = static_cast<TestType>(i < 15 ? away : -away * 1e-2);
+        std::size_t count = 0;
+        list.build(x, x.size(), counted_reach{1, &count});
+        INFO(away);
+        CHECK(count < 2 * least);
+        CHECK(near_points::sorted(list) == near_points::by_comparing_all(x, x.size(), tsubu::same_reach{1}));
     }
 }
 

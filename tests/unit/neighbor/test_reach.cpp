@@ -59,8 +59,7 @@ TEST_CASE("the greatest reach is that of the two largest", "[neighbor][reach]") 
 TEST_CASE("radii that are none are named", "[neighbor][reach]") {
     constexpr auto nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [](const std::vector<double>& radii, double skin) {
-        return thrown<tsubu::input_error>(
-            [&] { static_cast<void>(tsubu::radii_reach<>{radii, skin}.greatest(3)); });
+        return thrown<tsubu::input_error>([&] { static_cast<void>(tsubu::radii_reach<>{radii, skin}.greatest(3)); });
     };
     CHECK(says(refused({1, 1}, 0), "2 radii of 3 particles"));
     CHECK(says(refused({1, 1, -2}, 0), "the radius of particle 2 is -2 m"));

@@ -81,8 +81,9 @@ TEST_CASE("it is looked at each so many steps", "[neighbor][skin_watch]") {
     for (int step = 0; step < 3; ++step) CHECK_FALSE(watch.is_due(on));
 }
 
-const char* const late = "neighbours were used after the fastest particles had gone 0.75 m each, more than half of the "
-                         "skin of 1 m; it was looked at every 4 steps";
+const char* const late =
+    "neighbours were used after the fastest particles had gone 0.75 m each, more than half of the skin of 1 m; it was "
+    "looked at every 4 steps";
 
 TEST_CASE("a use that was too late is found and named", "[neighbor][skin_watch]") {
     tsubu::self_transport on;

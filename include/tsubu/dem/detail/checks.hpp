@@ -14,7 +14,7 @@
 #include <tsubu/domain/lattice.hpp>
 #include <tsubu/store/standard_fields.hpp>
 
-#include <algorithm>  // std::min
+#include <algorithm>  // std::max, std::min
 #include <cmath>    // std::abs, std::nextafter, std::sqrt
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
@@ -136,12 +136,25 @@ private:
         });
     }
     void check_time_step(std::uint64_t step) const {
-        const double omega = greatest_frequency(of_);
+        const double omega = (std::max)(greatest_frequency(of_), least_frequency_of_contact());
         if (!(of_.how().time_step * omega <= 2))
             refuse(step,
                    "a time step of " + tsubu::detail::shown(of_.how().time_step) +
                        " s, and contacts that are stable up to " + tsubu::detail::shown(2 / omega) + " s",
                    "take a smaller time step, or softer contacts; to see what happens, switch guards::time_step off");
+    }
+    /// Of the first touch of the lightest particles, if the law is as stiff from there on: what a scene without contacts
+    /// will have.
+    [[nodiscard]] double least_frequency_of_contact() const {
+        if constexpr (scene::has_contacts) {
+            const double k = of_.template model<typename scene::contact_type>().normal().stiffness(0.0, 1.0);
+            double lightest = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < of_.particles().owned_count(); ++i)
+                lightest = (std::min)(lightest, of_.mass(static_cast<index_t>(i)));
+            return std::sqrt((of_.particles().owned_count() > 1 ? 2 : 1) * k / lightest);
+        } else {
+            return 0;
+        }
     }
     // Of a scene at rest the speeds end in the noise of rounding: what touches something is left out.
     void check_coordinates(std::uint64_t step) const {

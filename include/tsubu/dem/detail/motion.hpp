@@ -60,7 +60,7 @@ public:
     /// x += step(i). @return the square of the longest step [m^2]
     template <class Step>
     real displace(Step&& step) const {
-        real farthest = 0;
+        greatest_seen<real> farthest;
         for (std::size_t i = 0; i < owned_; ++i) {
             const vec<D, real> by = step(i);
             real square = 0;
@@ -68,9 +68,9 @@ public:
                 square += by[k] * by[k];
                 move(i, k, static_cast<double>(by[k]));
             }
-            see(square, farthest);
+            farthest.see(square);
         }
-        return farthest;
+        return farthest.most + farthest.poison;
     }
     [[nodiscard]] vec<D, real> acceleration(std::size_t i) const noexcept {
         const auto by = factors(i, 1);
@@ -105,15 +105,17 @@ private:
     template <int Kicks, bool Drifts, bool Clears>
     real go(double kicked, double drifted) const noexcept {
         const auto by = factors_of_all(kicked);
-        real fastest = 0;
+        greatest_seen<real> fastest;
         std::size_t i = 0;
-        V fastest_lanes(real(0));
+        greatest_seen<V> fastest_lanes;
         for (; i + width <= owned_; i += width)
             go_group<Kicks, Drifts, Clears>(i, by, kicked, drifted, fastest_lanes);
         if constexpr (Drifts)
-            unrolled<width>([&](auto l) __attribute__((always_inline)) { see(fastest_lanes[l], fastest); });
+            unrolled<width>([&](auto l) __attribute__((always_inline)) {
+                fastest.see(fastest_lanes.most[l] + fastest_lanes.poison[l]);
+            });
         for (; i < owned_; ++i) go_one<Kicks, Drifts, Clears>(i, kicked, drifted, fastest);
-        return fastest;
+        return fastest.most + fastest.poison;
     }
     [[nodiscard]] kick_factors factors_of_all(double duration) const noexcept {
         if constexpr (Scene::bodies_type::are_equal)
@@ -121,14 +123,20 @@ private:
         else
             return {};
     }
-    // Not a number is fastest of all, and stays it.
-    [[gnu::always_inline]] static void see(real square, real& fastest) noexcept {
-        fastest = !(square <= fastest) ? square : fastest;
-    }
+    /// The greatest of all that it has seen; not a number, if one of them is none or infinite.
+    template <class Numbers>
+    struct greatest_seen {
+        Numbers most = Numbers(real(0));
+        Numbers poison = Numbers(real(0));  // 0, or not a number: a maximum passes over what is none
+        [[gnu::always_inline]] void see(const Numbers& square) noexcept {
+            most = select(most < square, square, most);
+            poison = poison + (square - square);
+        }
+    };
 
     template <int Kicks, bool Drifts, bool Clears>
     [[gnu::always_inline]] void go_group(std::size_t i, const kick_factors& of_all, double kicked, double drifted,
-                                         V& fastest) const noexcept {
+                                         greatest_seen<V>& fastest) const noexcept {
         real* const v = of_.v[i].data();
         real* const f = of_.f[i].data();
         vec<width, kick_factors> each;
@@ -162,8 +170,7 @@ private:
             const auto velocity = vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
                 return V::of([&](auto l) __attribute__((always_inline)) { return of_.v[i + l][k]; });
             });
-            const auto square = dot<D, V>(velocity, velocity);
-            fastest = select(square < fastest, fastest, square);  // keeps what is not a number
+            fastest.see(dot<D, V>(velocity, velocity));
             if constexpr (!drifts_in_lanes)
                 unrolled<width>([&](auto l) __attribute__((always_inline)) {
                     unrolled<D>([&](auto k) __attribute__((always_inline)) {
@@ -193,7 +200,7 @@ private:
     }
     /// The same of one particle: the last ones, which do not fill a group.
     template <int Kicks, bool Drifts, bool Clears>
-    void go_one(std::size_t i, double kicked, double drifted, real& fastest) const noexcept {
+    void go_one(std::size_t i, double kicked, double drifted, greatest_seen<real>& fastest) const noexcept {
         [[maybe_unused]] const auto by = factors(i, kicked);
         real square = 0;
         for (std::size_t k = 0; k < D; ++k) {
@@ -207,7 +214,7 @@ private:
             if constexpr (Drifts && !drifts_in_lanes) move(i, k, drifted * static_cast<double>(v));
             if constexpr (Clears) of_.f[i][k] = 0;
         }
-        if constexpr (Drifts) see(square, fastest);
+        if constexpr (Drifts) fastest.see(square);
         if constexpr (Scene::turns)
             for (std::size_t k = 0; k < spins; ++k) {
                 for (int n = 0; n < Kicks; ++n) of_.w[i][k] += static_cast<real>(by.angular) * of_.t[i][k];

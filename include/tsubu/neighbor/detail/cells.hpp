@@ -10,10 +10,12 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/domain/interval.hpp>
+#include <tsubu/neighbor/detail/list_checks.hpp>
 #include <tsubu/neighbor/detail/stencil_points.hpp>
 
 #include <algorithm>  // std::fill, std::max, std::min
 #include <array>      // std::array
+#include <cmath>      // std::sqrt
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::int32_t, std::uint32_t
 #include <limits>     // std::numeric_limits
@@ -21,8 +23,8 @@
 
 namespace tsubu::detail {
 
-// Cells along x follow each other, then rows along y, then layers along z; points are sorted by cell, so that three cells
-// in a row are one stretch of points. A layer of empty cells around all is what stencils at the border look at.
+// Cells along x follow each other, then rows along y, then layers along z; points are sorted by cell, so that three
+// cells in a row are one stretch of points. A layer of empty cells around all is what stencils at the border look at.
 //
 //     . . . . . .        stencil of a cell c in 2-D, each pair once:
 //     . a b c d .            * * *      the stretch of three cells above,
@@ -31,8 +33,8 @@ namespace tsubu::detail {
 //
 // A stretch holds a few points only, and how many cannot be predicted. So the points of a stencil are first copied one
 // stretch behind the other, and then compared with each point of the cell in one loop, as many at a time as there are
-// lanes. Empty cells are never looked at: the others are listed, in the order of their first points. If points lie along
-// a curve, pairs do too.
+// lanes. Empty cells are never looked at: the others are listed, in the order of their first points. If points lie
+// along a curve, pairs do too.
 
 /// Points in the order of their cells.
 template <std::size_t D, class Real>
@@ -62,7 +64,7 @@ public:
             for (std::uint32_t k = 0; k < own; ++k) body(near, k, k + 1);
         });
     }
-    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point with an index below `end`.
+    /// body(near, k): all of `near` are candidates for its point k, itself too; for each point of an index below `end`.
     template <class Body>
     void each_full(index_t end, Body&& body) const {
         constexpr std::size_t rows = D == 1 ? 1 : D == 2 ? 3 : 9;
@@ -85,54 +87,115 @@ public:
     }
 
 private:
-    // Cells are as wide as the cutoff, or wider where the points are so sparse that most would be empty.
+    // Cells are as wide as the cutoff, or wider where the points are so sparse that most would be empty. A few points
+    // far from all others would make them so wide that all others share one: then cells fill the place of most points
+    // only, and those outside count as in the nearest. Two that are near each other are still in cells side by side.
     template <class Positions>
     void lay_out(const char* where, const Positions& x, Real cutoff) {
-        vec<D, Real> lo{};
-        vec<D, Real> hi{};
-        vec<D, Real> checked{};  // not 0 as soon as one is not finite; one sum for each axis, since they take turns
-        if (count_ != 0)
-            for (std::size_t k = 0; k < D; ++k) lo[k] = hi[k] = x[0][k];
-        for (std::size_t i = 0; i < count_; ++i) {
-            const auto& at = x[i];
-            for (std::size_t k = 0; k < D; ++k) {
-                lo[k] = (std::min)(lo[k], at[k]);
-                hi[k] = (std::max)(hi[k], at[k]);
-                checked[k] += at[k] * 0;
-            }
-        }
-        for (std::size_t k = 0; k < D; ++k)
-            if (!(checked[k] == 0)) refuse(where, x);
-        lo_ = lo;
-        // Rounding puts a point into a wrong cell by up to two units in the last place of the number of the cell.
-        Real longest = 0;
-        for (std::size_t k = 0; k < D; ++k) {
-            const auto length = hi[k] - lo[k];
-            if (!is_finite(length))
-                raise<input_error>(where, "coordinate " + std::to_string(k) + " from " + shown(lo[k]) + " to " +
-                                              shown(hi[k]) + ", of which the difference is not finite",
-                                   "find what made it: a time step past the limit, or an overlap of its start");
-            longest = (std::max)(longest, length);
-        }
-        constexpr Real margin = 8 * std::numeric_limits<Real>::epsilon();
         const auto most = static_cast<Real>((std::min)(cells_per_point * count_ + 64, std::size_t{1} << 30));
-        Real edge = cutoff + margin * (cutoff + longest);
-        for (;; edge *= Real(1.125)) {
-            Real in_all = 1;
-            for (std::size_t k = 0; k < D; ++k) in_all *= (hi[k] - lo[k]) / edge + 3;
-            if (!(in_all > most)) break;
+        auto [lo, hi] = bounds(where, x);
+        auto edge = fitting_edge(lo, hi, cutoff, most);
+        if (edge > 2 * cutoff) {
+            keep_most(x, lo, hi);
+            edge = fitting_edge(lo, hi, cutoff, most);
         }
+        lo_ = lo;
         inverse_edge_ = 1 / edge;
         std::size_t all = 1;
         for (std::size_t k = 0; k < D; ++k) {
-            // An empty one at each end. No product is greater than that of the greatest: rounding keeps the order.
-            width_[k] = static_cast<std::size_t>((hi[k] - lo[k]) * inverse_edge_) + 3;
+            last_[k] = static_cast<Real>(static_cast<std::int32_t>((hi[k] - lo[k]) * inverse_edge_));
+            width_[k] = static_cast<std::size_t>(last_[k]) + 3;  // an empty one at each end
             all *= width_[k];
         }
         plane_ = width_[0] * (D >= 2 ? width_[1] : 1);
         begin_ = buffer<std::uint32_t>(all + 2, {});
         std::fill(begin_.begin(), begin_.end(), 0U);
     }
+    struct corners {
+        vec<D, Real> lo{};
+        vec<D, Real> hi{};
+    };
+    template <class Positions>
+    [[nodiscard]] corners bounds(const char* where, const Positions& x) const {
+        corners of;
+        vec<D, Real> checked{};  // not 0 as soon as one is not finite; one sum for each axis, since they take turns
+        if (count_ != 0)
+            for (std::size_t k = 0; k < D; ++k) of.lo[k] = of.hi[k] = x[0][k];
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto& at = x[i];
+            for (std::size_t k = 0; k < D; ++k) {
+                of.lo[k] = (std::min)(of.lo[k], at[k]);
+                of.hi[k] = (std::max)(of.hi[k], at[k]);
+                checked[k] += at[k] * 0;
+            }
+        }
+        for (std::size_t k = 0; k < D; ++k) {
+            if (!(checked[k] == 0)) refuse(where, x);
+            if (!is_finite(of.hi[k] - of.lo[k]))
+                raise<input_error>(where,
+                                   "coordinate " + std::to_string(k) + " from " + shown(of.lo[k]) + " to " +
+                                       shown(of.hi[k]) + ", of which the difference is not finite",
+                                   what_to_find);
+        }
+        return of;
+    }
+    // How wide cells are, so that there are at most so many.
+    [[nodiscard]] static Real fitting_edge(const vec<D, Real>& lo, const vec<D, Real>& hi, Real cutoff, Real most) {
+        Real longest = 0;
+        for (std::size_t k = 0; k < D; ++k) longest = (std::max)(longest, hi[k] - lo[k]);
+        // Rounding puts a point into a wrong cell by up to two units in the last place of the number of the cell.
+        auto edge = cutoff + 8 * std::numeric_limits<Real>::epsilon() * (cutoff + longest);
+        for (;; edge *= Real(1.125)) {
+            Real all = 1;
+            for (std::size_t k = 0; k < D; ++k) all *= (hi[k] - lo[k]) / edge + 3;
+            if (!(all > most)) return edge;
+        }
+    }
+    // Four standard deviations to each side of the mean: of points spread evenly that is all, and a few that are far
+    // away are outside; those less far after the next round.
+    template <class Positions>
+    void keep_most(const Positions& x, vec<D, Real>& lo, vec<D, Real>& hi) const {
+        for (int round = 0; round < 16; ++round) {
+            vec<D, Real> inverse;
+            for (std::size_t k = 0; k < D; ++k) inverse[k] = hi[k] > lo[k] ? 1 / (hi[k] - lo[k]) : 0;
+            vec<D, double> sum{};
+            vec<D, double> squares{};
+            auto least = hi;
+            auto greatest = lo;
+            double inside = 0;
+            for (std::size_t i = 0; i < count_; ++i) {
+                vec<D, double> u;
+                bool is_inside = true;
+                for (std::size_t k = 0; k < D; ++k) {
+                    u[k] = static_cast<double>((x[i][k] - lo[k]) * inverse[k]);
+                    if (x[i][k] < lo[k] || x[i][k] > hi[k]) is_inside = false;
+                }
+                if (!is_inside) continue;
+                for (std::size_t k = 0; k < D; ++k) {
+                    sum[k] += u[k];
+                    squares[k] += u[k] * u[k];
+                    least[k] = (std::min)(least[k], x[i][k]);
+                    greatest[k] = (std::max)(greatest[k], x[i][k]);
+                }
+                ++inside;
+            }
+            if (inside == 0) return;
+            bool has_shrunk = false;
+            for (std::size_t k = 0; k < D; ++k) {
+                const auto length = hi[k] - lo[k];
+                const double mean = sum[k] / inside;
+                // What is far smaller than the whole is lost in rounding: that is left to the next round.
+                constexpr double lost = 1e-12;
+                const double four = 4 * std::sqrt((std::max)(squares[k] / inside - mean * mean, 0.0) + lost);
+                hi[k] = (std::min)(greatest[k], lo[k] + static_cast<Real>(mean + four) * length);
+                lo[k] = (std::max)(least[k], lo[k] + static_cast<Real>(mean - four) * length);
+                lo[k] = (std::min)(lo[k], hi[k]);
+                has_shrunk |= hi[k] - lo[k] < Real(0.7) * length;
+            }
+            if (!has_shrunk) return;
+        }
+    }
+    static constexpr auto what_to_find = "find what made it: a time step past the limit, or an overlap of its start";
     template <class Positions>
     [[noreturn, gnu::cold, gnu::noinline]] static void refuse(const char* where, const Positions& x) {
         for (std::size_t i = 0;; ++i)
@@ -141,13 +204,15 @@ private:
                     raise<input_error>(where,
                                        "coordinate " + std::to_string(k) + " of particle " + std::to_string(i) +
                                            " is " + shown(x[i][k]),
-                                       "find what made it: a time step past the limit, or an overlap of its start");
+                                       what_to_find);
     }
     template <class Position>
     [[nodiscard]] std::uint32_t cell_of(const Position& at) const noexcept {
         std::size_t c = 0;
-        for (auto k = D; k-- > 0;)
-            c = c * width_[k] + static_cast<std::uint32_t>(static_cast<std::int32_t>((at[k] - lo_[k]) * inverse_edge_)) + 1;
+        for (auto k = D; k-- > 0;) {
+            const auto number = (std::min)((std::max)((at[k] - lo_[k]) * inverse_edge_, Real(0)), last_[k]);
+            c = c * width_[k] + static_cast<std::uint32_t>(static_cast<std::int32_t>(number)) + 1;
+        }
         return static_cast<std::uint32_t>(c);
     }
     template <class Positions>
@@ -185,6 +250,7 @@ private:
     std::size_t count_;
     vec<D, Real> lo_{};
     Real inverse_edge_ = 0;
+    vec<D, Real> last_{};  // along each axis the number of the last cell that may have points
     std::array<std::size_t, D> width_{};
     std::size_t plane_ = 1;
     buffer<std::uint32_t> begin_;  // [cells + 2]: of each cell, after sorting
@@ -193,5 +259,15 @@ private:
     std::array<buffer<Real>, D> columns_;
     buffer<index_t> origin_;  // where each was before
 };
+
+/// What each list of neighbours begins with. @throws input_error, limit_error
+template <class Positions, class Reach>
+[[nodiscard]] auto sorted_into_cells(const char* where, const Positions& x, std::size_t owned, const Reach& reach) {
+    using real = number_of_position<Positions>;
+    const auto count = static_cast<std::size_t>(x.size());
+    const double greatest = reach.greatest(count);
+    check_list<real>(where, count, owned, greatest);
+    return cells<dimension_of<position_in<Positions>>, real>(where, x, static_cast<real>(greatest));
+}
 
 }  // namespace tsubu::detail

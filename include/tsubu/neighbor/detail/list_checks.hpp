@@ -30,7 +30,8 @@ inline constexpr std::size_t dimension_of<Number[D]> = D;
 template <class Positions>
 using position_in = std::remove_cvref_t<decltype(std::declval<const Positions&>()[std::size_t{}])>;
 template <class Positions>
-using number_of_position = std::remove_cvref_t<decltype(std::declval<const Positions&>()[std::size_t{}][std::size_t{}])>;
+using number_of_position =
+    std::remove_cvref_t<decltype(std::declval<const Positions&>()[std::size_t{}][std::size_t{}])>;
 
 }  // namespace detail
 
@@ -50,7 +51,8 @@ namespace detail {
 template <class Real>
 void check_list(const char* where, std::size_t count, std::size_t owned, double reach) {
     if (count > max_index_count)
-        raise<limit_error>(where, std::to_string(count) + " particles on one rank", "take more ranks: one has 2^31 - 1");
+        raise<limit_error>(where, std::to_string(count) + " particles on one rank",
+                           "take more ranks: one has at most 2^31 - 1");
     if (owned > count)
         raise<input_error>(where, std::to_string(owned) + " owned particles of " + std::to_string(count),
                            "give the positions of the owned ones, then of the ghosts");
@@ -59,7 +61,9 @@ void check_list(const char* where, std::size_t count, std::size_t owned, double 
                            "give a finite length above 0: the range of the forces, and a skin");
     const auto length = static_cast<Real>(reach);
     if (!std::isnormal(length * length))
-        raise<input_error>(where, "neighbours up to a distance of " + shown(reach) + ", of which the square is no normal number",
+        raise<input_error>(where,
+                           "neighbours up to a distance of " + shown(reach) +
+                               ", of which the square is no normal number",
                            "take a unit of length in which distances are nearer to 1");
 }
 

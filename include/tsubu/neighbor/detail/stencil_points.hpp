@@ -7,13 +7,13 @@
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/types.hpp>
 
-#include <array>    // std::array
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::uint32_t
-#include <cstring>  // std::memcpy
-#include <limits>   // std::numeric_limits
+#include <array>        // std::array
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::uint32_t
+#include <cstring>      // std::memcpy
+#include <limits>       // std::numeric_limits
 #include <type_traits>  // std::integral_constant
-#include <utility>    // std::index_sequence
+#include <utility>      // std::index_sequence
 
 namespace tsubu::detail {
 
@@ -38,7 +38,7 @@ public:
     /// @param longer  most stretches are longer than a chunk
     explicit stencil_points(bool longer) : longer_(longer) { make_room(512); }
 
-    /// Takes the points of the stretches. @param columns, origin  can be read up to a chunk behind the last point
+    /// Takes the points of the stretches. @param columns, origin  longer by `spare` than there are points
     template <std::size_t Count>
     [[gnu::always_inline]] void gather(const std::array<buffer<Real>, D>& columns, const index_t* origin,
                                        const std::array<point_stretch, Count>& stretches) {
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] index_t index(std::size_t k) const noexcept { return index_[k]; }
     /// How many values near() may write, and more than are points.
     [[nodiscard]] std::size_t most() const noexcept { return count_ + V::count; }
-    /// Writes value(j) of each point j from `begin` on that is near point k, itself too, in their order. @return where they end
+    /// Writes value(j) of each point j from `begin` on that is near point k, itself too. @return where they end
     template <class Reach, class Value, class Make>
     [[nodiscard, gnu::always_inline]] Value* near(std::size_t k, std::size_t begin, const Reach& reach, Value* to,
                                                   Make value) const {
@@ -116,8 +116,9 @@ private:
             (body(std::integral_constant<std::size_t, K>{}), ...);
         }(std::make_index_sequence<D>{});
     }
-    [[gnu::always_inline]] static void copy_chunk(const std::array<const Real*, D>& from, const std::array<Real*, D>& to,
-                                                  const index_t* origin, index_t* index, std::size_t b, std::size_t m) {
+    [[gnu::always_inline]] static void copy_chunk(const std::array<const Real*, D>& from,
+                                                  const std::array<Real*, D>& to, const index_t* origin, index_t* index,
+                                                  std::size_t b, std::size_t m) {
         each_axis([&](auto k) { std::memcpy(to[k] + m, from[k] + b, chunk * sizeof(Real)); });
         std::memcpy(index + m, origin + b, chunk * sizeof(index_t));
     }

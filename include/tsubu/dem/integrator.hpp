@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// integrator: how velocities and positions follow from forces; and the table of the models.
+///
+/// | integrator               | forces per step | order, smooth | stable up to omega dt     | choose it when                     |
+/// |--------------------------|-----------------|---------------|---------------------------|------------------------------------|
+/// | velocity_verlet          | 1               | 2             | 2 (sqrt(1 + z^2) - z)     | you do not know                    |
+/// | implicit_velocity_verlet | 1, and rounds   | 2             | 2 for all z               | damping is strong                  |
+/// | symplectic_euler         | 1               | 1             | 2 (sqrt(1 + z^2) - z)     | other codes are to be reproduced   |
+/// | pefrl                    | 4               | 4             | 2.98                      | the problem is smooth, without damping |
+/// | runge_kutta_4            | 4               | 4             | 2.78                      | the problem is smooth, with damping |
+/// | explicit_euler           | 1               | 1             | 0                         | to see why not                     |
+///
+/// z is the damping ratio. Of collisions none is more accurate than velocity_verlet at equal cost: where a contact begins
+/// and ends caps the order.
+#pragma once
+
+#include <tsubu/dem/quantities.hpp>
+
+#include <concepts>  // std::convertible_to
+
+namespace tsubu::dem {
+
+/// How velocities and positions follow from forces.
+///  1. advance(run, h, steps) brings a run from one step to the next by its members kick, drift, kick_and_drift, displace,
+///     clear_forces and evaluate_forces, and calls end_step after each; forces are those of the positions before and
+///     after;
+///  2. force_evaluations of a step; moves_spins: whether what turns particles is moved; solves_damping: whether the
+///     damping of contacts is left to it;
+///  3. keeps<Q> are fields of its own, in the quantities Q of a scene.
+template <class Integrator>
+concept integrator = requires {
+    { Integrator::force_evaluations } -> std::convertible_to<unsigned>;
+    { Integrator::moves_spins } -> std::convertible_to<bool>;
+    { Integrator::solves_damping } -> std::convertible_to<bool>;
+    typename Integrator::template keeps<quantities<3, double>>;
+};
+
+}  // namespace tsubu::dem

@@ -13,6 +13,8 @@ namespace tsubu::dem {
 struct cohesionless {
     static constexpr auto role = contact_role::cohesion;
     static constexpr bool pulls = false;
+    template <class Normal>
+    static constexpr bool goes_with = true;
     void check() const {}
 };
 
@@ -24,6 +26,8 @@ struct cohesionless {
 struct dmt_cohesion {
     static constexpr auto role = contact_role::cohesion;
     static constexpr bool pulls = true;
+    template <class Normal>
+    static constexpr bool goes_with = Normal::is_hertzian;
     double work;  ///< of adhesion w [J/m^2]: twice the surface energy
 
     void check() const { detail::check_not_negative("work of adhesion", work, "J/m^2"); }

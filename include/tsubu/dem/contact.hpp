@@ -54,10 +54,14 @@ enum class contact_role { tangential, rolling, cohesion, release };
 
 /// The force along the normal.
 ///  1. elastic(d, R*) is 0 at d = 0 and does not fall; stiffness is its derivative, energy its integral;
-///  2. the force is elastic - damping(d, m*, R*) v, v the velocity of separation.
+///  2. damping(d, m*, R*) is not negative, and 0 if is_damped is false: the force is elastic - damping v, v the velocity of
+///     separation;
+///  3. lanes of numbers have the same results as the numbers, bit for bit.
+/// is_hertzian: the contact widens as sqrt(R* d), and so do its other springs.
 template <class Law>
 concept normal_law = requires(const Law& law, double number) {
     { Law::is_damped } -> std::convertible_to<bool>;
+    { Law::is_hertzian } -> std::convertible_to<bool>;
     { law.elastic(number, number) } -> std::same_as<double>;
     { law.stiffness(number, number) } -> std::same_as<double>;
     { law.energy(number, number) } -> std::same_as<double>;

@@ -14,9 +14,8 @@
 #include <tsubu/dem/vector_algebra.hpp>
 #include <tsubu/store/field.hpp>
 
-#include <concepts>     // std::same_as
 #include <cstddef>      // std::size_t
-#include <type_traits>  // std::conditional_t, std::is_same_v
+#include <type_traits>  // std::conditional_t
 
 namespace tsubu::dem {
 namespace detail {
@@ -72,22 +71,16 @@ public:
     using release_type = typename detail::part_for<contact_role::release, until_separation, Parts...>::type;
 
 private:
-    static constexpr bool is_hertzian = std::is_same_v<Normal, hertz_normal> ||
-                                        std::is_same_v<Normal, hertz_dashpot_normal> ||
-                                        std::is_same_v<Normal, hertz_tsuji_normal>;
-    static constexpr bool is_frictionless = std::is_same_v<tangential_type, frictionless>;
-    static_assert(is_hertzian || !std::is_same_v<tangential_type, mindlin_history>,
-                  "mindlin_history is the tangential stiffness of a Hertzian contact; take linear_history with hooke");
-    static_assert(!is_hertzian || !std::is_same_v<tangential_type, linear_history>,
-                  "linear_history is the tangential stiffness of a Hookean contact; take mindlin_history with hertz");
-    static_assert(is_hertzian || std::is_same_v<cohesion_type, cohesionless>,
+    static_assert(tangential_type::template goes_with<Normal>,
+                  "mindlin_history is the tangential stiffness of a Hertzian contact, linear_history that of a linear "
+                  "one: take the one with hertz, the other with hooke");
+    static_assert(cohesion_type::template goes_with<Normal>,
                   "dmt_cohesion belongs to a Hertzian contact; take hertz or hertz_tsuji");
-    static_assert(!is_frictionless || std::is_same_v<rolling_type, free_rolling>,
+    static_assert(tangential_type::turns || !rolling_type::turns,
                   "rolling_resistance without friction: nothing makes a sphere roll; add a law of friction");
-    static_assert(Normal::is_damped || std::is_same_v<release_type, until_separation>,
+    static_assert(Normal::is_damped || !release_type::never_pulls,
                   "without_attraction is the end of a damped contact; this normal law never pulls");
-    static_assert(std::is_same_v<cohesion_type, cohesionless> || std::is_same_v<release_type, until_separation>,
-                  "without_attraction contradicts cohesion");
+    static_assert(!cohesion_type::pulls || !release_type::never_pulls, "without_attraction contradicts cohesion");
 
 public:
     static constexpr auto role = model_role::contacts;

@@ -34,6 +34,7 @@ inline void check_not_negative(const char* what, double value, const char* unit)
 /// depend on the speed: hertz_normal.
 struct hooke_normal {
     static constexpr bool is_damped = false;
+    static constexpr bool is_hertzian = false;
     double k;  ///< stiffness [N/m]
 
     void check() const { detail::check_positive("stiffness k", k, "N/m"); }
@@ -59,11 +60,12 @@ static_assert(normal_law<hooke_normal>);
 /// A linear spring and a dashpot: F = k d - gamma m* v.
 ///
 /// Concept: normal_law. Choose it where all collisions are to have the same restitution, whatever their speed: e =
-/// exp(-beta t_c), t_c = pi / sqrt(k/m* - beta^2), beta = gamma / 2. Do not for an accuracy beyond 1e-2 with the half
-/// step's damping: velocity_verlet<implicit_damping>.
+/// exp(-beta t_c), t_c = pi / sqrt(k/m* - beta^2), beta = gamma / 2. Do not for an accuracy beyond 1e-2: a jump
+/// at the touch makes every scheme first order.
 /// Source: Cundall & Strack 1979, doi:10.1680/geot.1979.29.1.47; gamma as LAMMPS' pair_style gran/hooke has it.
 struct hooke_dashpot_normal {
     static constexpr bool is_damped = true;
+    static constexpr bool is_hertzian = false;
     double k;      ///< stiffness [N/m]
     double gamma;  ///< damping per effective mass [1/s]
 
@@ -97,6 +99,7 @@ static_assert(normal_law<hooke_dashpot_normal>);
 /// Source: Hertz 1882, doi:10.1515/crll.1882.92.156.
 struct hertz_normal {
     static constexpr bool is_damped = false;
+    static constexpr bool is_hertzian = true;
     double modulus;  ///< effective: 1/E* = (1 - nu_i^2)/E_i + (1 - nu_j^2)/E_j [Pa]
 
     void check() const { detail::check_positive("effective modulus", modulus, "Pa"); }
@@ -127,6 +130,7 @@ static_assert(normal_law<hertz_normal>);
 /// Source: Brilliantov, Spahn, Hertzsch & Poschel 1996, doi:10.1103/PhysRevE.53.5382.
 struct hertz_dashpot_normal {
     static constexpr bool is_damped = true;
+    static constexpr bool is_hertzian = true;
     double modulus;  ///< effective [Pa]
     double gamma;    ///< damping per effective mass and contact radius [1/(m s)]
 
@@ -164,6 +168,7 @@ static_assert(normal_law<hertz_dashpot_normal>);
 /// doi:10.1209/0295-5075/94/50004.
 struct hertz_tsuji_normal {
     static constexpr bool is_damped = true;
+    static constexpr bool is_hertzian = true;
     double modulus;  ///< effective [Pa]
     double alpha;    ///< damping, without a unit
 

@@ -22,12 +22,14 @@ template <std::size_t D, class Real>
 /// The force along the surface.
 ///  1. force(contact, F_n, stiffness, springs) acts on i, at right angles to the normal, and changes `springs`
 ///     [springs<D>], which are 0 when the contact begins.
-/// A law without memory has springs<D> == 0.
+/// A law without memory has springs<D> == 0; goes_with<Normal> tells which normal laws have its stiffness.
 ///
 /// No force: nothing turns then.
 struct frictionless {
     static constexpr auto role = contact_role::tangential;
     static constexpr bool turns = false;
+    template <class Normal>
+    static constexpr bool goes_with = true;
     template <std::size_t D>
     static constexpr std::size_t springs = 0;
     void check() const {}
@@ -40,6 +42,8 @@ struct frictionless {
 struct coulomb {
     static constexpr auto role = contact_role::tangential;
     static constexpr bool turns = true;
+    template <class Normal>
+    static constexpr bool goes_with = true;
     template <std::size_t D>
     static constexpr std::size_t springs = 0;
     double mu;       ///< coefficient of friction
@@ -102,6 +106,8 @@ template <std::size_t D, class Real>
 struct linear_history {
     static constexpr auto role = contact_role::tangential;
     static constexpr bool turns = true;
+    template <class Normal>
+    static constexpr bool goes_with = !Normal::is_hertzian;
     template <std::size_t D>
     static constexpr std::size_t springs = D;
     double k_t;          ///< stiffness along the surface [N/m]; 2/7 of the normal one keeps their times in step
@@ -132,6 +138,8 @@ struct linear_history {
 struct mindlin_history {
     static constexpr auto role = contact_role::tangential;
     static constexpr bool turns = true;
+    template <class Normal>
+    static constexpr bool goes_with = Normal::is_hertzian;
     template <std::size_t D>
     static constexpr std::size_t springs = D;
     double shear_modulus;  ///< effective: 1/G* = (2 - nu_i)/G_i + (2 - nu_j)/G_j [Pa]

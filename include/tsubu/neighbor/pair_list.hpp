@@ -44,7 +44,8 @@ public:
     /// @param reach  a pair_reach: up to which distance a pair is near
     /// @throws input_error if a position is not finite, or the reach is not a positive length; limit_error at 2^32
     ///         pairs. The list is as before then.
-    /// Complexity: O(N) if the density is bounded, and the box of all particles not much larger than what they fill.
+    /// Complexity: O(N) if the density is bounded, and the box around all particles but a few is not far larger than
+    ///             what they fill.
     template <point_positions Positions, pair_reach Reach>
     void build(const Positions& x, std::size_t owned, const Reach& reach) {
         constexpr auto where = "pair_list::build";

@@ -48,10 +48,11 @@ public:
     }
     /// Neighbours have been found.
     void restart() noexcept {
-        travelled_ = used_ = 0;
+        travelled_ = used_ = looked_ = 0;
         unchecked_ = 0;
     }
-    /// Whether to find neighbours before they are used again. Each call that answers no is a use of the list.
+    /// Whether to find neighbours before they are used again: the skin is crossed, or will be before the next look. Each
+    /// call that answers no is a use of the list.
     /// @throws on all ranks: input_error if it was used after twice the way was longer than the skin.
     /// Collective: each `every`-th call, one reduction.
     template <transport Transport>
@@ -61,7 +62,12 @@ public:
             return false;
         }
         unchecked_ = 0;
-        double both[2] = {travelled_, used_};
+        // Before the next look there are uses after every - 1 steps, as fast as since the last look, or a quarter faster.
+        // No product if there are none, nor where the way is infinite.
+        const double ahead =
+            every_ > 1 && travelled_ > looked_ ? 1.25 * (travelled_ - looked_) * (every_ - 1) / every_ : 0;
+        looked_ = travelled_;
+        double both[2] = {travelled_ + ahead, used_};
         on.reduce(std::span<double>(both), reduction::greatest);
         refuse_if_late(both[1]);
         if (!(2 * both[0] <= skin_)) return true;
@@ -97,7 +103,8 @@ private:
     unsigned every_;
     unsigned unchecked_ = 0;
     double travelled_ = 0;
-    double used_ = 0;  // how far they had gone when the list was used last
+    double used_ = 0;    // how far they had gone when the list was used last
+    double looked_ = 0;  // and at the last look
 };
 
 }  // namespace tsubu

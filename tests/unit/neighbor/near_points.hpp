@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -120,6 +120,16 @@ inline std::vector<pair> sorted(const tsubu::pair_list& list) {
     for (const auto [i, j] : list.pairs()) pairs.emplace_back(i, j);
     std::sort(pairs.begin(), pairs.end());
     return pairs;
+}
+/// Where the list first differs from what it is to be; nothing if it does not. (All pairs would fill the screen.)
+inline std::string difference(const tsubu::pair_list& list, const std::vector<pair>& wanted) {
+    const auto found = sorted(list);
+    const auto at = std::mismatch(found.begin(), found.end(), wanted.begin(), wanted.end());
+    const auto shown = [](auto one, auto end) {
+        return one == end ? "no more" : std::to_string(one->first) + "-" + std::to_string(one->second);
+    };
+    if (at.first == found.end() && at.second == wanted.end()) return "";
+    return shown(at.first, found.end()) + " instead of " + shown(at.second, wanted.end());
 }
 /// Some radii: most alike, a few larger, one 0.
 template <class Radius>

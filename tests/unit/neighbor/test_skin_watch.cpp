@@ -63,15 +63,10 @@ TEST_CASE("it is looked at each so many steps", "[neighbor][skin_watch]") {
     tsubu::skin_watch watch(1, 3);
     std::vector<bool> due;
     for (int step = 0; step < 6; ++step) {
-        watch.travel(0.08);  // longer than half of the skin after step 7 only
+        watch.travel(0.08);  // longer than half of the skin after step 7 only, which is before the look at step 9
         due.push_back(watch.is_due(on));
     }
-    CHECK(due == std::vector<bool>(6, false));
-    watch.travel(0.02);  // 0.50 in all: still good
-    CHECK_FALSE(watch.is_due(on));
-    CHECK_FALSE(watch.is_due(on));
-    watch.travel(0.02);
-    CHECK(watch.is_due(on));  // the ninth call looks; uses until the eighth were right
+    CHECK(due == std::vector<bool>{false, false, false, false, false, true});
     watch.restart();
     // The count begins anew.
     watch.travel(1);
@@ -79,6 +74,25 @@ TEST_CASE("it is looked at each so many steps", "[neighbor][skin_watch]") {
     watch.restart();
     watch.travel(0.1);
     for (int step = 0; step < 3; ++step) CHECK_FALSE(watch.is_due(on));
+}
+
+TEST_CASE("a look sees as far as the next one", "[neighbor][skin_watch]") {
+    tsubu::self_transport on;
+    for (const unsigned every : {2U, 3U, 5U, 10U}) {
+        // Slow at first, faster from look to look, as what falls; in the end 2 v dt every is 0.08.
+        tsubu::skin_watch watch(0.1, every);
+        std::size_t renewals = 0;
+        for (int step = 1; step <= 4000; ++step) {
+            watch.travel(1e-6 * step);
+            if (!watch.is_due(on)) continue;
+            watch.restart();
+            ++renewals;
+        }
+        watch.check(on);
+        // 8 m in all: a renewal for each 0.05 m, less what is kept back for the steps until the next look.
+        CHECK(renewals >= 160);
+        CHECK(renewals <= 480);
+    }
 }
 
 const char* const late =

@@ -56,13 +56,12 @@ public:
     /// @param touches  of each pair; null if the law remembers nothing
     /// @param memory   of each pair; likewise
     void act_on_pairs(std::span<const index_pair> pairs, touch_state* touches, memory_type* memory) const {
-        walk<pair_meeting>(pair_meeting{of_, pairs.data()}, static_cast<std::uint32_t>(pairs.size()), touches, memory);
+        walk<pair_meeting>(pair_meeting{of_, pairs.data()}, pairs.size(), touches, memory);
     }
     /// @param near  i is a particle, j a wall
     void act_on_walls(std::span<const index_pair> near, std::span<const wall_plane<D>> planes, touch_state* touches,
                       memory_type* memory) const {
-        walk<wall_meeting>(wall_meeting{of_, near.data(), planes.data()}, static_cast<std::uint32_t>(near.size()),
-                           touches, memory);
+        walk<wall_meeting>(wall_meeting{of_, near.data(), planes.data()}, near.size(), touches, memory);
     }
 
 private:
@@ -198,18 +197,18 @@ private:
     };
 
     template <class Meeting>
-    void walk(const Meeting& meet, std::uint32_t count, touch_state* touches, memory_type* memory) const {
+    void walk(const Meeting& meet, std::size_t count, touch_state* touches, memory_type* memory) const {
         std::uint32_t active[block + 2 * width];
         shape shapes[block / width + 2];
         std::uint32_t waiting = 0;
-        for (std::uint32_t begin = 0; begin < count; begin += block) {
+        for (std::size_t begin = 0; begin < count; begin += block) {
             const auto end = (std::min)(count, begin + block);
             auto k = begin;
             for (; k + width <= end; k += width)
                 note(meet.touching([k](unsigned l) { return k + l; }), k, width, active, waiting, touches);
             if (k < end)  // the last of all stands in for those that are missing
-                note(meet.touching([k, end](unsigned l) { return (std::min)(k + l, end - 1); }), k, end - k, active,
-                     waiting, touches);
+                note(meet.touching([k, end](unsigned l) { return (std::min)(k + l, end - 1); }), k,
+                     static_cast<unsigned>(end - k), active, waiting, touches);
             const auto groups = waiting / width;
             for (std::uint32_t g = 0; g < groups; ++g) shapes[g] = meet.find_shape(chosen(active + g * width));
             for (std::uint32_t g = 0; g < groups; ++g)
@@ -225,11 +224,11 @@ private:
     [[gnu::always_inline]] static auto chosen(const std::uint32_t* active) noexcept {
         return [active](unsigned l) __attribute__((always_inline)) { return active[l]; };
     }
-    [[gnu::always_inline]] static void note(unsigned bits, std::uint32_t k, unsigned count, std::uint32_t* active,
+    [[gnu::always_inline]] static void note(unsigned bits, std::size_t k, unsigned count, std::uint32_t* active,
                                             std::uint32_t& waiting, touch_state* touches) noexcept {
         for (unsigned l = 0; l < count; ++l) {
             const auto touching = bits >> l & 1U;
-            active[waiting] = k + l;
+            active[waiting] = static_cast<std::uint32_t>(k + l);
             waiting += touching;
             if constexpr (springs != 0)
                 touches[k + l] = static_cast<touch_state>((unsigned{touches[k + l]} << 1U | touching) & 3U);

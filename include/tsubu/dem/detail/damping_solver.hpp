@@ -83,7 +83,9 @@ void solve_damping(Run& of, double half_step) {
         }
         of.on().reduce(std::span<double>(changes), reduction::greatest);
         constexpr double tolerance = 4 * static_cast<double>(std::numeric_limits<real>::epsilon());
-        if (!(changes[0] > tolerance * changes[1])) break;
+        // What has all but come to rest moves by denormal numbers, which have no relative precision.
+        constexpr double least = static_cast<double>((std::numeric_limits<real>::min)());
+        if (!(changes[0] > tolerance * changes[1] + least)) break;
         if (round == most_rounds)
             tsubu::detail::raise<input_error>("dem::implicit_velocity_verlet",
                                               "damping that does not settle in " + std::to_string(most_rounds) + " rounds",

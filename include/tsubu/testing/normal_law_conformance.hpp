@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Does a normal law keep its three laws? A suite for any test framework, or none.
+///
+///     tsubu::testing::check_normal_law(my_law{...}, 1e-3, [](bool ok, std::string_view law) { ... });
+#pragma once
+
+#include <tsubu/core/lanes.hpp>
+#include <tsubu/core/random.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/dem/contact.hpp>
+
+#include <bit>          // std::bit_cast
+#include <cmath>        // std::abs
+#include <cstdint>      // std::uint64_t
+#include <string>       // std::string
+#include <string_view>  // std::string_view
+
+namespace tsubu::testing {
+
+/// The laws of normal_law as the suite reports them: a name for each text; never an object.
+struct normal_law_text {
+    normal_law_text() = delete;
+
+    static constexpr const char* begins = "law 1: there is no elastic force where bodies begin to touch";
+    static constexpr const char* rises = "law 1: the elastic force does not fall with the overlap";
+    static constexpr const char* stiffness = "law 1: the stiffness is the derivative of the force";
+    static constexpr const char* energy = "law 1: the energy is the integral of the force";
+    static constexpr const char* damping = "law 2: the damping is not negative, and none if the law says so";
+    static constexpr const char* lanes = "law 3: lanes of numbers have the results of the numbers";
+};
+
+/// Does this law keep laws 1 to 3, up to this overlap [m]?
+///
+/// @param check  called as check(bool kept, std::string_view law); a broken law with the overlap behind its text
+/// @param seed   of the overlaps, masses and radii that are tried
+template <dem::normal_law Law, class Check>
+void check_normal_law(const Law& law, double most, Check&& check, std::uint64_t seed = 1) {
+    random_stream random(seed);
+    const auto report = [&](bool kept, const char* text, double overlap) {
+        if (kept) return check(true, std::string_view(text));
+        check(false, std::string_view(std::string(text) + ", at an overlap of " + detail::shown(overlap)));
+    };
+    const auto is_near = [](double a, double b, double relative, double absolute) {
+        return std::abs(a - b) <= relative * std::abs(b) + absolute;
+    };
+    for (int round = 0; round < 100; ++round) {
+        const double radius = 0.1 + random.unit();
+        const double mass = 0.1 + random.unit();
+        const double d = most * (0.05 + 0.95 * random.unit());
+        const double force = law.elastic(d, radius);
+        report(law.elastic(0.0, radius) == 0, normal_law_text::begins, 0);
+        report(law.elastic(0.9 * d, radius) <= force, normal_law_text::rises, d);
+
+        // A fourth-order difference: exact to 1e-8 for powers of the overlap.
+        const double h = 1e-3 * d;
+        const double slope = (8 * (law.elastic(d + h, radius) - law.elastic(d - h, radius)) -
+                              (law.elastic(d + 2 * h, radius) - law.elastic(d - 2 * h, radius))) /
+                             (12 * h);
+        report(is_near(law.stiffness(d, radius), slope, 1e-8, 0), normal_law_text::stiffness, d);
+        // The work from d/2 to d, by Simpson's rule.
+        constexpr int parts = 64;
+        double work = 0;
+        for (int n = 0; n <= parts; ++n)
+            work += (n == 0 || n == parts ? 1 : n % 2 == 1 ? 4 : 2) * law.elastic(d / 2 + d / 2 * n / parts, radius);
+        work *= d / 2 / parts / 3;
+        report(is_near(law.energy(d, radius) - law.energy(d / 2, radius), work, 1e-8, 0), normal_law_text::energy, d);
+
+        const double damping = law.damping(d, mass, radius);
+        report(Law::is_damped ? damping >= 0 : damping == 0, normal_law_text::damping, d);
+
+        using several = lanes<double>;
+        const auto overlaps = several::of([&](auto l) { return d * (1 + 0.1 * static_cast<double>(l)); });
+        const auto forces = law.elastic(overlaps, several(radius));
+        const auto dampings = law.damping(overlaps, several(mass), several(radius));
+        bool is_same = true;
+        for (std::size_t l = 0; l < several::count; ++l) {
+            const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+            is_same = is_same && bits(forces[l]) == bits(law.elastic(overlaps[l], radius)) &&
+                      bits(dampings[l]) == bits(law.damping(overlaps[l], mass, radius));
+        }
+        report(is_same, normal_law_text::lanes, d);
+    }
+}
+
+}  // namespace tsubu::testing

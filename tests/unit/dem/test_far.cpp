@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Far from the origin, and with great ids: what each number policy keeps.
+#include <tsubu/dem/quantities.hpp>
+
+#include <tsubu/comm/self_transport.hpp>
+#include <tsubu/core/random.hpp>
+#include <tsubu/dem/measure.hpp>
+#include <tsubu/dem/references.hpp>
+#include <tsubu/dem/scenes/gas.hpp>
+#include <tsubu/dem/scenes/pair.hpp>
+
+#include "support/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace tsubu::dem;
+
+constexpr double origins[] = {0, 1e3, 1e6, 1e9};
+constexpr std::int64_t first_ids[] = {1, 2000000000, 9000000000000};
+
+/// A gas whose box and positions can be told exactly at all of these origins: they are multiples of 2^-20, cells of 2^-13.
+template <class Number>
+struct exact_gas : gas_scene<hooke<>, velocity_verlet, Number> {
+    using base = gas_scene<hooke<>, velocity_verlet, Number>;
+    using simulation = typename base::simulation;
+
+    [[nodiscard]] auto box() const {
+        using box_type = typename simulation::box_type;
+        const double edge = 2.0 * static_cast<double>(this->per_edge);
+        const auto lo = static_cast<typename box_type::real_type>(this->origin);
+        const auto hi = static_cast<typename box_type::real_type>(this->origin + edge);
+        return box_type({lo, lo, lo}, {hi, hi, hi}, {.periodic = {true, true, true}});
+    }
+    template <class Store, class Box>
+    void place(Store& store, const Box& box, std::uint64_t n) const {
+        using real = typename simulation::real;
+        typename Box::real_position_type x{};
+        tsubu::vec<3, real> v{};
+        auto rest = n;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto signed_unit = [&](std::uint64_t c) {
+                return 2 * (static_cast<double>(tsubu::splitmix64(8 * n + c) >> 11) * 0x1p-53) - 1;
+            };
+            const double at = 2.0 * static_cast<double>(rest % this->per_edge) + 1 + .4 * signed_unit(k);
+            rest /= this->per_edge;
+            x[k] = static_cast<typename Box::real_type>(this->origin + std::nearbyint(at * 0x1p20) * 0x1p-20);
+            v[k] = static_cast<real>(signed_unit(3 + k));
+        }
+        const auto i = store.push_back(tsubu::id = this->first_id + static_cast<std::int64_t>(n),
+                                       simulation::quantities_type::velocity = v);
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
+    }
+};
+
+/// Velocities in the order of ids, after some collisions.
+template <class Number>
+std::vector<tsubu::vec<3>> velocities_of_gas(double origin, std::int64_t first_id) {
+    tsubu::self_transport on;
+    exact_gas<Number> scene{};
+    scene.law = hooke<>{{2e4}};
+    scene.time_step = 1e-3;
+    scene.per_edge = 4;
+    scene.origin = origin;
+    scene.first_id = first_id;
+    const auto gas = stage(scene, on);
+    gas->steps(600);
+    std::vector<std::pair<std::int64_t, tsubu::vec<3>>> rows;
+    for (std::size_t i = 0; i < gas->particles().owned_count(); ++i) {
+        tsubu::vec<3> v{};
+        for (std::size_t k = 0; k < 3; ++k)
+            v[k] = static_cast<double>(gas->particles()[decltype(scene)::simulation::quantities_type::velocity][i][k]);
+        rows.emplace_back(gas->particles()[tsubu::id][i] - first_id, v);
+    }
+    std::sort(rows.begin(), rows.end());
+    std::vector<tsubu::vec<3>> result;
+    for (const auto& row : rows) result.push_back(row.second);
+    return result;
+}
+double farthest(const std::vector<tsubu::vec<3>>& a, const std::vector<tsubu::vec<3>>& b) {
+    REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) most = std::fmax(most, std::abs(a[i][k] - b[i][k]));
+    return most;
+}
+
+const double contact_time = pi / std::sqrt(2e5 / .5);
+
+/// The restitution of a head-on impact.
+template <class Number>
+double restitution(double origin, std::int64_t first_id = 1, double phase = .5) {
+    tsubu::self_transport on;
+    const pair_scene<hooke<>, velocity_verlet, Number> scene{
+        .law = hooke<>{{2e5}}, .time_step = contact_time / 50.37, .phase = phase, .origin = origin, .first_id = first_id,
+        .is_watched = false};
+    const auto pair = stage(scene, on);
+    pair->steps(80);
+    const auto v = pair->particles()[decltype(scene)::simulation::quantities_type::velocity];
+    const double apart = static_cast<double>(v[1][0]) - static_cast<double>(v[0][0]);
+    return pair->position(1)[0] > pair->position(0)[0] ? apart : -apart;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("on a lattice and in cells the origin does not matter, bit for bit", "[dem][far]", tsubu::lattice<std::int64_t>,
+                   tsubu::lattice<std::int32_t>, in_cells<float>) {
+    const auto near = velocities_of_gas<TestType>(0, 1);
+    for (const double origin : origins)
+        for (const auto first_id : first_ids) {
+            INFO("origin " << origin << ", ids from " << first_id);
+            CHECK(velocities_of_gas<TestType>(origin, first_id) == near);
+        }
+}
+TEST_CASE("ids do not matter, bit for bit", "[dem][far]") {
+    const auto ordinary = velocities_of_gas<double>(0, 1);
+    const double e = restitution<double>(0);
+    for (const auto first_id : first_ids) {
+        CHECK(velocities_of_gas<double>(0, first_id) == ordinary);
+        CHECK(restitution<double>(0, first_id) == e);
+    }
+}
+TEST_CASE("doubles are off by no more than five units in the last place in the greatest overlap", "[dem][far]") {
+    const double greatest_overlap = 1 / std::sqrt(2e5 / .5);
+    for (const double origin : {1e3, 1e6, 1e9}) {
+        const double ulp = std::nextafter(origin, 2 * origin) - origin;
+        double square = 0;
+        constexpr int phases = 16;
+        for (int p = 0; p < phases; ++p) {
+            const double phase = (p + .5) / phases;
+            square += std::pow(restitution<double>(origin, 1, phase) - restitution<double>(0, 1, phase), 2) / phases;
+        }
+        const double off = std::sqrt(square) / (ulp / greatest_overlap);
+        INFO("origin " << origin << ": " << off << " units");
+        CHECK(off < 5);
+        CHECK(off > .05);  // noise of that size, not less: the origin does matter
+    }
+}
+TEST_CASE("what numbers lose against doubles", "[dem][far]") {
+    const double exact = restitution<double>(0);
+    const auto is_off = [&](double e, double most) {
+        INFO(e << " in place of " << exact);
+        CHECK(std::abs(e - exact) < most);
+    };
+    is_off(restitution<mixed_precision<double, float>>(0), 3e-6);
+    is_off(restitution<mixed_precision<double, float>>(1e6), 3e-6);
+    const auto gas = velocities_of_gas<double>(0, 1);
+    CHECK(farthest(velocities_of_gas<tsubu::lattice<std::int64_t>>(0, 1), gas) < 1e-9);
+    CHECK(farthest(velocities_of_gas<tsubu::lattice<std::int32_t>>(0, 1), gas) < 1e-4);
+    CHECK(farthest(velocities_of_gas<in_cells<float>>(0, 1), gas) < 1e-3);
+}

@@ -6,10 +6,10 @@ import json
 import os
 import sys
 
-from . import comm, domain, id_map, io, store
+from . import comm, dem, domain, id_map, io, store
 from .page import REQUIRED_CONTEXT, STYLE, Refusal, claim_section, context_section, listed, plotting
 
-ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io, "comm": comm}  # in the order of the page
+ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io, "comm": comm, "dem": dem}  # in the order of the page
 
 
 def room_of(rows):

@@ -6,6 +6,7 @@
     measure.py settle --cells 50 50 40 --steps 5000      1e5 spheres
     measure.py settle --warmup 60000 --steps 5000        the dense bed, after the fall
     measure.py settle --restart bed.restart --steps 5000 the dense bed, from a file that --save wrote
+    measure.py settle --data bed.data --steps 5000       from a data file of atom_style sphere
     measure.py gas --set restitution 0.9 --steps 30000
 
 seconds is LAMMPS' own time of the steps alone, without reading and set-up. bytes_per_particle is the memory LAMMPS says
@@ -83,7 +84,9 @@ def main():
     parser.add_argument("--warmup", type=int, default=0, help="steps before the timed ones")
     parser.add_argument("--ranks", type=int, choices=(1, 2), default=1)
     parser.add_argument("--cells", type=int, nargs=3, metavar=("NX", "NY", "NZ"), help="particles along x, y and z")
-    parser.add_argument("--restart", help="start from this file instead of the formula")
+    begin = parser.add_mutually_exclusive_group()
+    begin.add_argument("--restart", help="start from this file instead of the formula")
+    begin.add_argument("--data", help="start from this data file instead of the formula; it says where the box ends")
     parser.add_argument("--save", help="write a restart file at the end")
     parser.add_argument("--set", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"),
                         help="a variable of the scene")
@@ -102,6 +105,8 @@ def main():
         _, base = run(arguments.scene, arguments.ranks, dict(settings, file=few, steps="10", warmup="0"))
         if arguments.restart:
             settings.update(source="restart", file=os.path.abspath(arguments.restart))
+        elif arguments.data:
+            settings["file"] = os.path.abspath(arguments.data)
         else:
             settings["file"] = os.path.join(folder, "all.data")
             write_particles(arguments.scene, cells, settings["file"])

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Impacts: the error of what they leave over the number of steps in a contact, for each law, integrator and number.
+///
+/// All elastic laws have the same time of contact, and damped ones nearly, so that steps per contact and steps per second
+/// are the same axis. The steps per contact are not whole numbers: errors of entry and exit would cancel, and fake an order.
+
+#include "plan.hpp"
+
+#include <tsubu/dem/references.hpp>
+#include <tsubu/dem/scenes/pair.hpp>
+#include <tsubu/dem/scenes/sphere_on_floor.hpp>
+
+#include <algorithm>  // std::max
+#include <tuple>      // std::tuple
+
+namespace bench {
+namespace {
+
+using namespace tsubu::dem;
+using tsubu::lattice;
+
+constexpr double stiffness = 2e5;     // N/m
+constexpr double pair_mass = 0.5;     // effective: two spheres of 1 kg
+constexpr double pair_radius = 0.25;  // effective: two spheres of 0.5 m
+constexpr double tsuji_alpha = 0.44721359549995794;  // b = 1/5, so e = .527
+constexpr int phases = 16;
+
+const double contact_time = pi / std::sqrt(stiffness / pair_mass);
+
+/// That of a Hertzian impact at 1 m/s that lasts as long as the Hookean one.
+double hertz_modulus() {
+    const double overlap = contact_time / 2.943275184;
+    return 5 * pair_mass / (4 * std::pow(overlap, 2.5)) * 3 / (4 * std::sqrt(pair_radius));
+}
+
+/// How long a damped Hertzian impact lasts, for which there is no closed form: integrated in small steps.
+double tsuji_duration() {
+    const hertz_tsuji_normal law{hertz_modulus(), tsuji_alpha};
+    const double h = contact_time / 1e5;
+    double overlap = 0;
+    double speed = 1;
+    double t = 0;
+    while (t == 0 || overlap > 0) {
+        speed -= h / pair_mass * (law.elastic(overlap, pair_radius) + law.damping(overlap, pair_mass, pair_radius) * speed);
+        overlap += h * speed;
+        t += h;
+    }
+    return t;
+}
+
+template <class Law>
+struct impact_case;
+template <>
+struct impact_case<hooke<>> {
+    static constexpr const char* name = "hooke";
+    static hooke<> law() { return hooke<>{{stiffness}}; }
+    static impact exact() { return {1, contact_time}; }
+};
+template <>
+struct impact_case<hooke_dashpot<>> {
+    static constexpr const char* name = "dashpot";
+    static hooke_dashpot<> law() { return hooke_dashpot<>{{stiffness, 50}}; }
+    static impact exact() { return dashpot_impact(stiffness, 50, pair_mass); }
+};
+template <>
+struct impact_case<hertz<>> {
+    static constexpr const char* name = "hertz";
+    static hertz<> law() { return hertz<>{{hertz_modulus()}}; }
+    static impact exact() { return {1, contact_time}; }
+};
+template <>
+struct impact_case<hertz_tsuji<>> {
+    static constexpr const char* name = "tsuji";
+    static hertz_tsuji<> law() { return hertz_tsuji<>{{hertz_modulus(), tsuji_alpha}}; }
+    static impact exact() {
+        static const double duration = tsuji_duration();
+        return {tsuji_restitution(tsuji_alpha), duration};
+    }
+};
+
+/// rms over the phases of the error of the restitution; 1 m/s of approach.
+template <class Law, class Integrator, class Number>
+double restitution_error(double steps_per_contact) {
+    using one = impact_case<Law>;
+    const auto exact = one::exact();
+    const double h = exact.duration / steps_per_contact;
+    double sum = 0;
+    for (int p = 0; p < phases; ++p) {
+        try {
+            auto run = stage(pair_scene<Law, Integrator, Number>{
+                                 .law = one::law(), .time_step = h, .phase = (p + 0.5) / phases, .is_watched = false},
+                             alone());
+            // Once parted, the spheres keep their speed.
+            run->steps(static_cast<std::size_t>(1.7 * steps_per_contact) + 5);
+            const auto v = run->particles()[pair_scene<Law, Integrator, Number>::simulation::quantities_type::velocity];
+            const double apart = static_cast<double>(v[1][0]) - static_cast<double>(v[0][0]);
+            sum += (std::abs(apart) - exact.restitution) * (std::abs(apart) - exact.restitution);
+        } catch (const tsubu::input_error&) {
+            return lost;  // flown out of the box
+        }
+    }
+    return std::sqrt(sum / phases);
+}
+
+/// A row of spheres, each of which is pressed against two others: the simulation of the pair, large enough to time.
+template <class Law, class Integrator, class Number>
+struct row_scene {
+    using simulation = typename pair_scene<Law, Integrator, Number>::simulation;
+    static constexpr std::uint64_t spheres = 4096;
+    static constexpr double spacing = 0.999;
+
+    [[nodiscard]] auto box() const {
+        using number = typename simulation::box_type::real_type;
+        return typename simulation::box_type({number(0)}, {static_cast<number>(spacing * double(spheres))},
+                                             {.periodic = {true}});
+    }
+    [[nodiscard]] tsubu::dem::options how() const {
+        return {.time_step = contact_time / 20.37, .skin = 0.1, .guard = no_guards};
+    }
+    [[nodiscard]] auto models() const { return std::tuple(impact_case<Law>::law(), equal_spheres{0.5, 1}); }
+    [[nodiscard]] static std::uint64_t count() noexcept { return spheres; }
+    template <class Store, class Box>
+    void place(Store& store, const Box& box, std::uint64_t n) const {
+        using number = typename Box::real_type;
+        const auto i = store.push_back(tsubu::id = static_cast<std::int64_t>(n));
+        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box,
+                                                  {static_cast<number>((double(n) + 0.5) * spacing)});
+    }
+};
+
+/// Time of some steps of a run that is made for it.
+template <class Scene>
+timed_contender cost_of(const std::string& name, const Scene& scene, std::size_t steps) {
+    using run_type = typename decltype(stage(scene, alone()))::element_type;
+    std::shared_ptr<run_type> made = stage(scene, alone());
+    return {name, static_cast<double>(steps * scene.count()), [made, steps](row_fields& fields) {
+                fields.emplace_back("bytes", double(made->memory_bytes()) / double(made->particles().owned_count()));
+                return seconds_of([&] { made->steps(steps); });
+            }};
+}
+
+struct sweep {
+    std::string name;  // LAW/INTEGRATOR/NUMBER
+    std::function<void(row_reporter&, extent)> errors;
+    std::function<timed_contender()> cost;
+};
+
+template <class Law, class Integrator, class Number>
+sweep impact_sweep() {
+    const std::string name =
+        std::string(impact_case<Law>::name) + "/" + integrator_name<Integrator> + "/" + number_name<Number>;
+    return {name,
+            [name](row_reporter& report, extent how_much) {
+                const double h = impact_case<Law>::exact().duration;
+                const auto point = [&](const char* task, double n) {
+                    report.counted("dem/" + std::string(task) + "/" + name,
+                                   {{"steps", n},
+                                    {"time_step", h / n},
+                                    {"evaluations", n * Integrator::force_evaluations},
+                                    {"error", shown_error(restitution_error<Law, Integrator, Number>(n))}});
+                };
+                const int last = how_much == extent::quick ? 6 : 8;
+                for (int k = 0; k <= last; ++k) point("impact", 5.0 * (1 << k) + 0.37);
+                // Up to twice the step at which the contact's spring is unstable, w dt = 2, and beyond.
+                if constexpr (std::is_same_v<Number, double>)
+                    for (double w_dt = 0.5; w_dt < 4.05; w_dt *= 1.09) point("past", pi / w_dt);
+            },
+            [name] {
+                return cost_of("dem/cost/" + name, row_scene<Law, Integrator, Number>{}, 40);
+            }};
+}
+
+template <class Law, class... Integrators>
+void add_integrators(std::vector<sweep>& all) {
+    (all.push_back(impact_sweep<Law, Integrators, double>()), ...);
+}
+template <class Law, class... Numbers>
+void add_numbers(std::vector<sweep>& all) {
+    (all.push_back(impact_sweep<Law, velocity_verlet, Numbers>()), ...);
+}
+template <class Law>
+void add_law(std::vector<sweep>& all) {
+    add_integrators<Law, velocity_verlet, symplectic_euler, pefrl, runge_kutta_4, explicit_euler>(all);
+    // Without damping there is nothing to solve for: it would be velocity_verlet.
+    if constexpr (Law::normal_type::is_damped) add_integrators<Law, implicit_velocity_verlet>(all);
+    add_numbers<Law, float, mixed_precision<double, float>, in_cells<float>, lattice<std::int64_t>,
+                lattice<std::int32_t>>(all);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// A sphere that hits a floor at 45 degrees
+
+struct rolls {
+    static constexpr const char* name = "rolls";  // friction holds: 1 <= 3.5 mu
+    static constexpr double mu = 0.5;
+};
+struct slides {
+    static constexpr const char* name = "slides";
+    static constexpr double mu = 0.2;
+};
+
+/// rms over the phases of the errors of the velocity along the floor and of that of the surface, by those before.
+template <class Case, class Integrator, class Number>
+double oblique_error(double steps_per_contact) {
+    using law_type = hooke<linear_history>;
+    const auto exact = oblique_impact(1, 1, Case::mu, 0.5);
+    const double h = pi / std::sqrt(stiffness) / steps_per_contact;  // the floor does not move: m* is the mass
+    double sum = 0;
+    for (int p = 0; p < phases; ++p) {
+        using scene = oblique_scene<law_type, Integrator, Number>;
+        auto run = stage(scene{.law = law_type{{stiffness}, {stiffness * 2 / 7, Case::mu}},
+                               .time_step = h,
+                               .phase = (p + 0.5) / phases},
+                         alone());
+        run->steps(static_cast<std::size_t>(1.3 * steps_per_contact) + 5);
+        using q = typename scene::simulation::quantities_type;
+        const double along = static_cast<double>(run->particles()[q::velocity][0][0]) - exact.tangential;
+        const double spin = std::abs(static_cast<double>(run->particles()[q::angular_velocity][0][0])) - exact.spin;
+        sum += along * along + 0.25 * spin * spin;
+    }
+    return std::sqrt(sum / phases);
+}
+template <class Case, class Integrator, class Number = double>
+void oblique(row_reporter& report, extent how_much) {
+    const int last = how_much == extent::quick ? 5 : 8;
+    for (int k = 0; k <= last; ++k) {
+        const double n = 5.0 * (1 << k) + 0.37;
+        report.counted("dem/oblique/" + std::string(Case::name) + "/" + integrator_name<Integrator> + "/" +
+                           number_name<Number>,
+                       {{"steps", n},
+                        {"evaluations", n * Integrator::force_evaluations},
+                        {"error", shown_error(oblique_error<Case, Integrator, Number>(n))}});
+    }
+}
+
+/// Spheres that lie beside each other on the floor: the simulation of one that hits it, large enough to time.
+template <class Integrator, class Number>
+struct floor_row_scene {
+    using law_type = hooke<linear_history>;
+    using simulation = typename oblique_scene<law_type, Integrator, Number>::simulation;
+    static constexpr std::uint64_t spheres = 4096;
+
+    [[nodiscard]] auto box() const {
+        return typename simulation::box_type({-2, -2}, {2 + 1.2 * double(spheres), 2});
+    }
+    [[nodiscard]] tsubu::dem::options how() const { return {.time_step = 1e-5, .skin = 0.1, .guard = no_guards}; }
+    [[nodiscard]] auto models() const {
+        return std::tuple(law_type{{stiffness}, {stiffness * 2 / 7, 0.5}}, walls{{{.point = {0, 0}, .normal = {0, 1}}}},
+                          equal_spheres{0.5, 1});
+    }
+    [[nodiscard]] static std::uint64_t count() noexcept { return spheres; }
+    template <class Store, class Box>
+    void place(Store& store, const Box&, std::uint64_t n) const {
+        using real = typename simulation::real;
+        store.push_back(tsubu::id = static_cast<std::int64_t>(n),
+                        simulation::quantities_type::position = {1.2 * double(n), 0.495},
+                        simulation::quantities_type::velocity = {real(1e-6), real(0)});
+    }
+};
+template <class Integrator, class Number = double>
+timed_contender oblique_cost() {
+    return cost_of("dem/oblique_cost/all/" + std::string(integrator_name<Integrator>) + "/" + number_name<Number>,
+                   floor_row_scene<Integrator, Number>{}, 40);
+}
+
+}  // namespace
+
+void add_impacts(std::vector<group>& groups, extent how_much) {
+    std::vector<sweep> all;
+    add_law<hooke<>>(all);
+    add_law<hooke_dashpot<>>(all);
+    add_law<hertz<>>(all);
+    add_law<hertz_tsuji<>>(all);
+    groups.push_back({"dem/impact", 8, [all, how_much](row_reporter& report) {
+                          for (const auto& one : all) one.errors(report, how_much);
+                      }});
+    groups.push_back({"dem/cost", 4, [all, how_much](row_reporter& report) {
+                          std::vector<timed_contender> costs;
+                          for (const auto& one : all) costs.push_back(one.cost());
+                          take_turns(report, costs, rounds_of(how_much));
+                      }});
+    groups.push_back({"dem/oblique", 3, [how_much](row_reporter& report) {
+                          const auto of = [&]<class Case>(Case) {
+                              oblique<Case, velocity_verlet>(report, how_much);
+                              oblique<Case, symplectic_euler>(report, how_much);
+                              oblique<Case, explicit_euler>(report, how_much);
+                              oblique<Case, velocity_verlet, mixed_precision<double, float>>(report, how_much);
+                          };
+                          of(rolls{});
+                          of(slides{});
+                          take_turns(report,
+                                     {oblique_cost<velocity_verlet>(), oblique_cost<symplectic_euler>(),
+                                      oblique_cost<explicit_euler>(),
+                                      oblique_cost<velocity_verlet, mixed_precision<double, float>>()},
+                                     rounds_of(how_much));
+                      }});
+}
+
+}  // namespace bench

@@ -58,7 +58,8 @@ struct bed_with_options : settle_scene<> {
 template <class Run>
 std::vector<tsubu::vec<3>> states_of(const Run& bed) {
     std::vector<std::pair<std::int64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < bed.particles().owned_count(); ++i) order.emplace_back(bed.particles()[tsubu::id][i], i);
+    for (std::size_t i = 0; i < bed.particles().owned_count(); ++i)
+        order.emplace_back(bed.particles()[tsubu::id][i], i);
     std::sort(order.begin(), order.end());
     std::vector<tsubu::vec<3>> states;
     for (const auto& [id, i] : order) {

@@ -24,9 +24,9 @@ inline constexpr bool is_set = std::is_same_v<Set, tsubu::fields<Fields...>>;
 
 /// Spins, torques and memory: what friction brings.
 template <class Scene>
-inline constexpr bool is_frictionless = !Scene::turns && !Scene::remembers && Scene::springs == 0 &&
-                                        !has<Scene, tsubu::torque<Scene::dimension>> &&
-                                        !has<Scene, tsubu::angular_velocity<Scene::dimension>>;
+inline constexpr bool is_frictionless =
+    !Scene::turns && !Scene::remembers && Scene::springs == 0 && !has<Scene, tsubu::torque<Scene::dimension>> &&
+    !has<Scene, tsubu::angular_velocity<Scene::dimension>>;
 template <class Scene>
 inline constexpr bool is_of_equal_spheres = !has<Scene, tsubu::radius> && !has<Scene, tsubu::mass>;
 
@@ -43,7 +43,8 @@ static_assert(is_frictionless<bounce> && is_of_equal_spheres<bounce> && bounce::
 
 // chain: springs, and masses of which two are held.
 using chain = chain_scene<>::simulation;
-static_assert(chain::dimension == 1 && chain::has_springs && !chain::has_contacts && !chain::has_gravity && !chain::has_walls);
+static_assert(chain::dimension == 1 && chain::has_springs && !chain::has_contacts && !chain::has_gravity &&
+              !chain::has_walls);
 static_assert(is_frictionless<chain> && has<chain, tsubu::bonds> && has<chain, tsubu::mass>);
 
 // crystal and gas: space, contacts, and nothing else.
@@ -88,15 +89,18 @@ static_assert(is_set<settle::forward_fields, tsubu::position<3>, tsubu::velocity
 static_assert(is_set<settle::migration_fields, tsubu::id, tsubu::position<3>, tsubu::velocity<3>,
                      tsubu::angular_velocity<3>, settle::quantities_type::contacts<3>>);
 static_assert(std::is_same_v<settle::restart_fields, settle::fields_type>);
-static_assert(is_set<tsubu::difference_of<settle::restart_fields, settle::migration_fields>, tsubu::force<3>, tsubu::torque<3>>);
+static_assert(
+    is_set<tsubu::difference_of<settle::restart_fields, settle::migration_fields>, tsubu::force<3>, tsubu::torque<3>>);
 static_assert(is_set<gas::migration_fields, tsubu::id, tsubu::position<3>, tsubu::velocity<3>>);
 
 // Sizes of their own are carried, and migrate, but do not travel each step: they do not change.
 using mixture = simulation<3, double, velocity_verlet, hooke<>, spheres>;
-static_assert(has<mixture, tsubu::radius> && has<mixture, tsubu::mass> && mixture::bytes_per_particle == gas::bytes_per_particle + 16);
+static_assert(has<mixture, tsubu::radius> && has<mixture, tsubu::mass> &&
+              mixture::bytes_per_particle == gas::bytes_per_particle + 16);
 static_assert(is_set<mixture::forward_fields, tsubu::position<3>>);
-static_assert(std::is_same_v<mixture::ghost_fields,
-                             tsubu::union_of<tsubu::fields<tsubu::radius, tsubu::mass>, tsubu::fields<tsubu::position<3>>>>);
+static_assert(
+    std::is_same_v<mixture::ghost_fields,
+                   tsubu::union_of<tsubu::fields<tsubu::radius, tsubu::mass>, tsubu::fields<tsubu::position<3>>>>);
 
 // An integrator's own are carried where it is.
 using implicit_gas = gas_scene<hooke_dashpot<>, implicit_velocity_verlet>::simulation;
@@ -108,7 +112,8 @@ static_assert(gas_scene<hooke<>, pefrl>::simulation::bytes_per_particle == gas::
 template <class Number>
 inline constexpr std::size_t bytes = gas_scene<hooke<>, velocity_verlet, Number>::simulation::bytes_per_particle;
 static_assert(bytes<double> == 8 + 3 * 24 && bytes<tsubu::lattice<std::int64_t>> == 8 + 3 * 24);
-static_assert(bytes<tsubu::lattice<std::int32_t>> == 8 + 12 + 48 && bytes<mixed_precision<double, float>> == 8 + 24 + 24);
+static_assert(bytes<tsubu::lattice<std::int32_t>> == 8 + 12 + 48 &&
+              bytes<mixed_precision<double, float>> == 8 + 24 + 24);
 static_assert(bytes<float> == 8 + 3 * 12 && bytes<in_cells<float>> == 8 + 6 + 3 * 12);
 
 }  // namespace

@@ -11,7 +11,7 @@ static_assert(scene::bytes_per_particle == 8 + 5 * 24 + 16);  // id; x, v, f, sp
 static_assert(!scene::store_type::has<decltype(tsubu::radius)>);  // all are alike: equal_spheres
 
 int main() {
-    tsubu::self_transport on;  // or mpi_transport: all that follows is the same
+    tsubu::self_transport on;  // or mpi_transport, where each rank adds particles of its own
     const scene::box_type box({0, 0, 0}, {6, 6, 12}, {.periodic = {true, true, false}});
     dem::run<scene, tsubu::self_transport> bed(
         box, {.time_step = 2e-4, .skin = 0.1}, on,

@@ -45,7 +45,8 @@ void each_touching(const columns<Scene>& of, std::span<const index_pair> pairs, 
         const double distance = std::sqrt(square);
         touching_pair<D> pair{i, j, false, {}};
         pair.at.overlap = r_i + r_j - distance;
-        pair.at.mass = 1 / (1 / static_cast<double>(of.mass_at(i)) + 1 / static_cast<double>(of.mass_at(j)));
+        const double inverse_mass = 1 / static_cast<double>(of.mass_at(i)) + 1 / static_cast<double>(of.mass_at(j));
+        pair.at.mass = inverse_mass > 0 ? 1 / inverse_mass : 0;  // 0: both are held fast
         pair.at.radius = r_i * r_j / (r_i + r_j);
         for (std::size_t k = 0; k < D; ++k) {
             pair.at.normal[k] = d[k] / distance;

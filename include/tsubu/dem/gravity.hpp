@@ -3,8 +3,11 @@
 /// gravity: the same acceleration of all particles.
 #pragma once
 
+#include <tsubu/core/error.hpp>
+#include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/dem/model.hpp>
+#include <tsubu/domain/interval.hpp>
 #include <tsubu/store/field.hpp>
 
 namespace tsubu::dem {
@@ -22,6 +25,15 @@ struct gravity {
     using writes = fields<>;
 
     vec<3> acceleration;  ///< [m/s^2]; in D dimensions the first D
+
+    /// @throws input_error if a component is not finite.
+    void check() const {
+        for (const double a : acceleration)
+            if (!tsubu::detail::is_finite(a))
+                tsubu::detail::raise<input_error>("dem::gravity",
+                                                  "an acceleration of " + tsubu::detail::shown(a) + " m/s^2",
+                                                  "give finite numbers");
+    }
 };
 static_assert(model<gravity>);
 

@@ -10,8 +10,8 @@ namespace tsubu::dem {
 ///
 /// Cost: a pass over contacts or particles every so many steps.
 struct guards {
-    unsigned every = 1000;    ///< steps between two looks; the first is at the start
-    bool time_step = true;    ///< below 2 / sqrt(2 max lambda_max(sum k n n^T) / m), of all particles
+    unsigned every = 1000;    ///< steps between two looks, the first at the start; 0: there only
+    bool time_step = true;    ///< below 2 over greatest_frequency, whatever the damping
     bool overlap = true;      ///< no two particles overlap by more than the smaller radius
     bool coordinates = true;  ///< if the fastest particle flies freely, v dt is above half a unit in the last place
     double energy_floor = 0;  ///< [J] once the kinetic energy was below, it stays below 10 times that; 0: not watched

@@ -70,8 +70,11 @@ template <class Run>
     if constexpr (Run::scene::has_contacts)
         of.each_contact([&](const auto& pair) {
             const bool is_shared = !pair.is_wall && static_cast<std::size_t>(pair.j) >= owned;
-            const auto& law = of.template model<typename Run::scene::contact_type>().normal();
-            sum += (is_shared ? 0.5 : 1.0) * law.energy(pair.at.overlap, pair.at.radius);
+            const auto& law = of.template model<typename Run::scene::contact_type>();
+            double energy = law.normal().energy(pair.at.overlap, pair.at.radius);
+            if constexpr (Run::scene::contact_type::cohesion_type::pulls)
+                energy -= law.cohesion().pull(pair.at.radius) * pair.at.overlap;
+            sum += (is_shared ? 0.5 : 1.0) * energy;
         });
     of.each_spring([&](index_t i, index_t j, const spring& one) {
         const double stretch = std::sqrt(detail::square_of(of.apart(i, j))) - one.length;

@@ -3,7 +3,7 @@
 /// What scenes are compared with: exact solutions of impacts, bounces, chains and cooling gases.
 #pragma once
 
-#include <cmath>    // std::atan2, std::exp, std::log, std::pow, std::sin, std::sqrt
+#include <cmath>    // std::asin, std::atan2, std::cos, std::exp, std::pow, std::sin, std::sqrt
 #include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
@@ -67,7 +67,7 @@ struct oblique_rebound {
 /// An elastic Hookean sphere with a tangential spring of 2/7 of the normal stiffness: it rolls off at 3/7 v_t, 10/7 v_t / R
 /// if tan(theta) <= 3.5 mu, else it slides.
 /// @param normal, along  velocities before, both positive [m/s]
-/// Source: Maw, Barber & Fawcett 1976, doi:10.1016/0043-1648(76)90201-X.
+/// Source: slip has the mass 2/7 m, so with this stiffness both springs have the same period, and slip is reversed.
 [[nodiscard]] inline oblique_rebound oblique_impact(double normal, double along, double mu, double radius) noexcept {
     if (along <= 3.5 * mu * normal) return {along * 3 / 7, along * 10 / 7 / radius};
     return {along - 2 * mu * normal, 5 * mu * normal / radius};
@@ -83,7 +83,8 @@ struct rolling_onset {
     return {2 * speed / (7 * mu * gravity), 5 * speed / 7};
 }
 
-/// The greatest frequency of n masses between fixed ends [rad/s]: 2 sin(n pi / (2 (n + 1))) sqrt(k / m).
+/// The frequency of mode 1 .. n of n masses between fixed ends [rad/s]: 2 sin(mode pi / (2 (n + 1))) sqrt(k / m); the
+/// greatest is that of mode n.
 [[nodiscard]] inline double chain_frequency(std::size_t mode, std::size_t n, double k, double mass) noexcept {
     return 2 * std::sin(static_cast<double>(mode) * pi / (2 * static_cast<double>(n + 1))) * std::sqrt(k / mass);
 }
@@ -101,11 +102,11 @@ struct cooling {
         return temperature / (ratio * ratio);
     }
 };
-/// Haff's law for spheres: tau = 6 / ((1 - e^2) nu0), nu0 = 4 sqrt(pi) n d^2 g0 sqrt(T0 / m), g0 = (1 - phi/2) / (1 -
+/// Haff's law for spheres: tau = 6 / ((1 - e^2) nu0), nu0 = 4 sqrt(pi) n d^2 g0 sqrt(T0), g0 = (1 - phi/2) / (1 -
 /// phi)^3.
 /// @param n         number density [1/m^3]
 /// @param diameter  [m]
-/// Source: Haff 1983, doi:10.1017/S0022112083003419; Carnahan & Starling 1969.
+/// Source: Haff 1983, doi:10.1017/S0022112083003419; Carnahan & Starling 1969, doi:10.1063/1.1672048.
 [[nodiscard]] inline cooling haff_cooling(double temperature, double restitution, double n, double diameter) noexcept {
     const double phi = n * pi / 6 * diameter * diameter * diameter;
     const double g0 = (1 - phi / 2) / std::pow(1 - phi, 3);

@@ -91,11 +91,13 @@ public:
     /// As start, for particles of a restart: they have their forces.
     void resume() { begin(false); }
     /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left the
-    /// box, or a guard refuses. Particles are as they were at some step before.
+    /// box, or a guard refuses. Particles are somewhere within a step then: look at them, or go back to a restart.
     void steps(std::size_t count) {
         if (!is_started_) start();
+        is_started_ = false;  // if this throws, lists and columns may be of another step than particles
         Integrator::advance(*this, how_.time_step, count);
         near_.check_uses();
+        is_started_ = true;
     }
     /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
     void keep_memory() { near_.keep_memory(store_); }
@@ -184,6 +186,7 @@ private:
     }
     void begin(bool finds_forces) {
         is_started_ = false;
+        has_been_at_rest_ = false;
         agreement<> all(on_->rank());
         store_.clear_ghosts();
         all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });

@@ -56,7 +56,7 @@ struct union_of_all<First, Rest...> {
 ///
 /// @tparam D           1, 2 or 3
 /// @tparam Number      a number_policy: double, mixed_precision<double, float>, lattice<std::int64_t>, ...
-/// @tparam Integrator  velocity_verlet, symplectic_euler, explicit_euler, runge_kutta_4, pefrl
+/// @tparam Integrator  velocity_verlet, implicit_velocity_verlet, symplectic_euler, explicit_euler, runge_kutta_4, pefrl
 /// @tparam Models      each at most once: a contact_law, walls, springs, gravity, and equal_spheres (default) or spheres
 template <std::size_t D, number_policy Number, integrator Integrator, model... Models>
 struct simulation {

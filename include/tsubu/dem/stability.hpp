@@ -56,12 +56,14 @@ template <std::size_t D>
 }  // namespace detail
 
 /// An upper bound of the angular frequency of any mode of what touches on this rank, as stiff as it is at the moment
-/// [rad/s]: sqrt(2 max lambda_max(sum k n n^T) / m). A time step below 2 over it is stable; with the damping of the half
-/// step, of ratio z, below 2 (sqrt(1 + z^2) - z) over it.
+/// [rad/s]: sqrt(2 max lambda_max(sum k n n^T) / m) of the forces along normals; or sqrt(7/2 k_t / m*) of a contact that
+/// sticks, whose slip has the mass 2/7 m*, if that is more. A time step below 2 over it is stable; with the damping of the
+/// half step, of ratio z, below 2 (sqrt(1 + z^2) - z) over it.
 ///
-/// Exact for the infinite chain and the FCC crystal. Friction, whose springs are softer, is left out.
+/// Exact for the infinite chain and the FCC crystal. No bound where several contacts of one particle stick and k_t is above
+/// 2/7 of k_n. Of several ranks the greatest counts.
 /// Complexity: O(contacts).
-/// Source: Gershgorin's circles of M^-1 K.
+/// Source: Rayleigh's quotient, with (n (x_i - x_j))^2 <= 2 (n x_i)^2 + 2 (n x_j)^2; a wall stands still, and counts half.
 template <class Run>
 [[nodiscard]] double greatest_frequency(const Run& of) {
     constexpr auto D = Run::scene::dimension;
@@ -71,6 +73,7 @@ template <class Run>
         for (std::size_t a = 0; a < D; ++a)
             for (std::size_t b = 0; b < D; ++b) sums[i][a][b] += k * n[a] * n[b];
     };
+    double stuck = 0;  // the square of the greatest frequency of slip
     if constexpr (Run::scene::has_contacts)
         of.each_contact([&](const auto& pair) {
             const double k = of.template model<typename Run::scene::contact_type>().normal().stiffness(pair.at.overlap,
@@ -78,6 +81,10 @@ template <class Run>
             // A wall does not move: half of what a partner that moves the other way would give.
             add(static_cast<std::size_t>(pair.i), pair.at.normal, pair.is_wall ? k / 2 : k);
             if (!pair.is_wall) add(static_cast<std::size_t>(pair.j), pair.at.normal, k);
+            const auto& friction = of.template model<typename Run::scene::contact_type>().tangential();
+            if constexpr (requires { friction.stiffness(pair.at.overlap, pair.at.radius); })
+                if (pair.at.mass > 0)
+                    stuck = (std::max)(stuck, 3.5 * friction.stiffness(pair.at.overlap, pair.at.radius) / pair.at.mass);
         });
     of.each_spring([&](index_t i, index_t j, const spring& one) {
         auto n = of.apart(i, j);
@@ -89,7 +96,7 @@ template <class Run>
     double most = 0;
     for (std::size_t i = 0; i < sums.size(); ++i)
         most = (std::max)(most, detail::greatest_eigenvalue<D>(sums[i]) / of.mass(static_cast<index_t>(i)));
-    return std::sqrt(2 * most);
+    return std::sqrt((std::max)(2 * most, stuck));
 }
 
 }  // namespace tsubu::dem

@@ -3,6 +3,7 @@
 /// stage: puts a scene that is described by its numbers onto ranks.
 #pragma once
 
+#include <tsubu/comm/agreement.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/dem/options.hpp>
@@ -47,8 +48,13 @@ template <staged_scene Scene, transport Transport>
     const auto all = scene.count();
     const auto share = [&](std::uint64_t rank) { return all / on.ranks() * rank + all % on.ranks() * rank / on.ranks(); };
     const auto mine = static_cast<std::size_t>(share(on.rank() + 1) - share(on.rank()));
-    made->particles().reserve(mine + mine / 8);  // ghosts too: growing would double what is held
-    for (auto n = share(on.rank()); n < share(on.rank() + 1); ++n) scene.place(made->particles(), box, n);
+    agreement<> all_ranks(on.rank());
+    all_ranks.attempt([&] {
+        made->particles().reserve(mine + mine / 8);  // ghosts too: growing would double what is held
+        for (auto n = share(on.rank()); n < share(on.rank() + 1); ++n) scene.place(made->particles(), box, n);
+    });
+    on.reduce(all_ranks.words(), reduction::sum);
+    all_ranks.settle("dem::stage");
     made->start();
     return made;
 }

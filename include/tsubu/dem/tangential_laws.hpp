@@ -9,6 +9,7 @@
 #include <tsubu/dem/normal_laws.hpp>
 #include <tsubu/dem/vector_algebra.hpp>
 
+#include <cmath>    // std::sqrt
 #include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
@@ -20,7 +21,7 @@ template <std::size_t D, class Real>
 }
 
 /// The force along the surface.
-///  1. force(contact, F_n, stiffness, springs) acts on i, at right angles to the normal, and changes `springs`
+///  1. force(contact, F_n, damping of the normal law, springs) acts on i, at right angles to the normal, and changes `springs`
 ///     [springs<D>], which are 0 when the contact begins.
 /// A law without memory has springs<D> == 0; goes_with<Normal> tells which normal laws have its stiffness.
 ///
@@ -119,6 +120,8 @@ struct linear_history {
         detail::check_not_negative("friction mu", mu, "");
         detail::check_not_negative("damping gamma_t", gamma_t, "1/s");
     }
+    /// [N/m]
+    [[nodiscard]] double stiffness(double, double) const noexcept { return k_t; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real&, vec<D, Real>& spring) const noexcept {
@@ -150,6 +153,10 @@ struct mindlin_history {
         detail::check_positive("effective shear modulus", shear_modulus, "Pa");
         detail::check_not_negative("friction mu", mu, "");
         detail::check_not_negative("share of damping", damping, "");
+    }
+    /// [N/m]
+    [[nodiscard]] double stiffness(double overlap, double radius) const noexcept {
+        return 8 * shear_modulus * std::sqrt(radius * overlap);
     }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,

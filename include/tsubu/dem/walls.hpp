@@ -7,9 +7,11 @@
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/dem/model.hpp>
+#include <tsubu/domain/interval.hpp>
 #include <tsubu/store/field.hpp>
 
 #include <cmath>   // std::abs, std::sqrt
+#include <cstddef>  // std::size_t
 #include <string>  // std::to_string
 #include <vector>  // std::vector
 
@@ -37,9 +39,15 @@ struct walls {
 
     std::vector<plane> planes;
 
-    /// @throws input_error if a normal has not the length 1, to within 1e-12.
+    /// @throws input_error if a normal has not the length 1, to within 1e-12, or a point is not finite.
     void check() const {
         for (std::size_t w = 0; w < planes.size(); ++w) {
+            for (const double x : planes[w].point)
+                if (!tsubu::detail::is_finite(x))
+                    tsubu::detail::raise<input_error>("dem::walls",
+                                                      "the point of wall " + std::to_string(w) + " has a coordinate " +
+                                                          tsubu::detail::shown(x) + " m",
+                                                      "give finite numbers");
             const auto& n = planes[w].normal;
             const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
             if (!(std::abs(length - 1) <= 1e-12))

@@ -82,10 +82,12 @@ public:
             if (found.size() - settled >= batch) settle();
         });
         settle();
-        inner_count_ = found.size();
+        const auto inner = found.size();
         found.up_to(std::copy_n(outer.data(), outer.size(), found.room(outer.size())));
-        count_ = found.size();
-        pairs_ = found.take();
+        const auto count_of_all = found.size();
+        pairs_ = found.take();  // the last that may throw
+        count_ = count_of_all;
+        inner_count_ = inner;
     }
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return {pairs_.data(), count_}; }
     [[nodiscard]] std::size_t size() const noexcept { return count_; }

@@ -40,6 +40,14 @@ template <class Scene>
                 wall.point[k] = one.point[k];
                 wall.normal[k] = one.normal[k];
             }
+            for (auto k = Scene::dimension; k < 3; ++k)
+                if (one.normal[k] != 0)
+                    tsubu::detail::raise<input_error>(
+                        "dem::walls",
+                        "the normal of wall " + std::to_string(result.size()) + " has a component " +
+                            tsubu::detail::shown(one.normal[k]) + " along axis " + std::to_string(k) + " of a scene in " +
+                            std::to_string(Scene::dimension) + " dimensions",
+                        "give a normal in the dimensions of the scene");
             result.push_back(wall);
         }
     return result;
@@ -72,7 +80,15 @@ void check_particles(const typename Scene::store_type& store, const typename Sce
                 refuse(i, "a mass of " + tsubu::detail::shown(m) + " kg",
                        "give a mass above 0; an infinite one holds it fast");
         }
+        if constexpr (Scene::turns)
+            for (const auto w : store[quantities::angular_velocity][i])
+                if (!tsubu::detail::is_finite(w))
+                    refuse(i, "an angular velocity of " + tsubu::detail::shown(w) + " rad/s", "give finite numbers");
         for (std::size_t k = 0; k < D; ++k) {
+            if constexpr (quantities::has_offsets)
+                if (!tsubu::detail::is_finite(store[quantities::offset][i][k]))
+                    refuse(i, "an offset of " + tsubu::detail::shown(store[quantities::offset][i][k]) + " m",
+                           "give finite numbers");
             const auto v = store[quantities::velocity][i][k];
             if (!tsubu::detail::is_finite(v))
                 refuse(i, "a velocity of " + tsubu::detail::shown(v) + " m/s on axis " + std::to_string(k),

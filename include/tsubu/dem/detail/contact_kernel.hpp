@@ -112,8 +112,9 @@ private:
             } else {
                 at.mass = V::of([&](auto l) __attribute__((always_inline)) {
                     const auto& pair = pairs[which(l)];
-                    // Reciprocals, so that one mass may be infinite.
-                    return static_cast<real>(1 / (1 / of.mass[pair.i] + 1 / of.mass[pair.j]));
+                    // Reciprocals, so that one mass may be infinite. Of two there is nothing to damp.
+                    const auto inverse = 1 / of.mass[pair.i] + 1 / of.mass[pair.j];
+                    return static_cast<real>(inverse > 0 ? 1 / inverse : 0);
                 });
                 at.radius = V::of([&](auto l) __attribute__((always_inline)) {
                     const auto& pair = pairs[which(l)];

@@ -47,6 +47,7 @@ void solve_damping(Run& of, double half_step) {
 
     std::vector<damped_contact<D>> contacts;
     of.each_contact([&](const auto& pair) {
+        if (pair.at.mass == 0) return;
         contacts.push_back({pair.i, pair.is_wall ? absent : pair.j, pair.at.normal,
                             law.normal().elastic(pair.at.overlap, pair.at.radius),
                             law.normal().damping(pair.at.overlap, pair.at.mass, pair.at.radius), 1 / pair.at.mass});

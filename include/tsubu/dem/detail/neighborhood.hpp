@@ -147,15 +147,15 @@ private:
             }
         }
         const double needed = touching + how_.skin;
-        if constexpr (Scene::remembers)
+        if constexpr (Scene::remembers || is_lattice<typename Scene::coordinate>)
             for (std::size_t k = 0; k < D; ++k)
                 if (const auto& along = box().real_axis(k); along.is_periodic() && !(along.length() > 2 * needed))
                     tsubu::detail::raise<input_error>(
                         "dem::run",
                         "a periodic box of " + tsubu::detail::shown(along.length()) + " m along axis " + std::to_string(k) +
                             ", and neighbours up to " + tsubu::detail::shown(needed) + " m",
-                        "take a box of more than twice that: two particles would touch twice, and contacts are "
-                        "remembered by their ids");
+                        "take a box of more than twice that: it would not be known which image of a particle is "
+                        "meant");
         if (how_.cutoff == 0) return needed;
         if (!(how_.cutoff >= needed))
             tsubu::detail::raise<input_error>(

@@ -30,7 +30,8 @@ struct gas_scene {
     Law law;
     double time_step;                   ///< [s]
     std::uint64_t per_edge = 22;        ///< particles along each edge
-    double fraction = 0.05;             ///< of the volume (in 2-D of the area) that is filled
+    double fraction = 0.05;             ///< of the volume (in 2-D of the area) that is filled; above .065 (in 2-D .196)
+                                        ///< some overlap at the beginning
     double skin = 0.3;                  ///< [m]
     double radius = 0.5;                ///< [m]
     double mass = 1;                    ///< [kg]

@@ -2,8 +2,9 @@
 /// @file
 /// Impacts: the error of what they leave over the number of steps in a contact, for each law, integrator and number.
 ///
-/// All elastic laws have the same time of contact, and damped ones nearly, so that steps per contact and steps per second
-/// are the same axis. The steps per contact are not whole numbers: errors of entry and exit would cancel, and fake an order.
+/// All elastic laws have the same time of contact, and damped ones nearly, so that steps per contact and steps per
+/// second are the same axis. The steps per contact are not whole numbers: errors of entry and exit would cancel, and
+/// fake an order.
 
 #include "plan.hpp"
 
@@ -42,7 +43,8 @@ double tsuji_duration() {
     double speed = 1;
     double t = 0;
     while (t == 0 || overlap > 0) {
-        speed -= h / pair_mass * (law.elastic(overlap, pair_radius) + law.damping(overlap, pair_mass, pair_radius) * speed);
+        const double damping = law.damping(overlap, pair_mass, pair_radius);
+        speed -= h / pair_mass * (law.elastic(overlap, pair_radius) + damping * speed);
         overlap += h * speed;
         t += h;
     }

@@ -97,8 +97,8 @@ timed_contender rung(const std::string& name, const std::string& base, const Sce
                      const std::string& number = "double") {
     using run_type = typename decltype(stage(scene, alone()))::element_type;
     std::shared_ptr<run_type> made = stage(scene, alone());
-    constexpr std::size_t steps = 10;
-    constexpr std::size_t calls = 10;
+    constexpr std::size_t steps = 25;
+    constexpr std::size_t calls = 6;
     return {"dem/ladder/" + name + "/" + base + "/" + number, static_cast<double>(calls * steps * scene.count()),
             [made](row_fields& fields) {
                 const auto lists = made->renewals();

@@ -136,7 +136,7 @@ template <class Scene>
 timed_contender cost_of(const std::string& name, const Scene& scene, std::size_t steps) {
     using run_type = typename decltype(stage(scene, alone()))::element_type;
     std::shared_ptr<run_type> made = stage(scene, alone());
-    constexpr std::size_t calls = 12;
+    constexpr std::size_t calls = 8;
     return {name, static_cast<double>(calls * steps * scene.count()), [made, steps](row_fields& fields) {
                 fields.emplace_back("bytes", double(made->memory_bytes()) / double(made->particles().owned_count()));
                 return undisturbed_seconds(calls, [&] { made->steps(steps); });
@@ -170,7 +170,7 @@ sweep impact_sweep() {
                     for (double w_dt = 0.5; w_dt < 4.05; w_dt *= 1.09) point("past", pi / w_dt);
             },
             [name] {
-                return cost_of("dem/cost/" + name, row_scene<Law, Integrator, Number>{}, 20);
+                return cost_of("dem/cost/" + name, row_scene<Law, Integrator, Number>{}, 40);
             }};
 }
 
@@ -264,7 +264,7 @@ struct floor_row_scene {
 template <class Integrator, class Number = double>
 timed_contender oblique_cost() {
     return cost_of("dem/oblique_cost/all/" + std::string(integrator_name<Integrator>) + "/" + number_name<Number>,
-                   floor_row_scene<Integrator, Number>{}, 20);
+                   floor_row_scene<Integrator, Number>{}, 40);
 }
 
 }  // namespace

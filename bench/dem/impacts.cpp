@@ -118,7 +118,8 @@ struct row_scene {
                                              {.periodic = {true}});
     }
     [[nodiscard]] tsubu::dem::options how() const {
-        return {.time_step = contact_time / 20.37, .skin = 0.1, .guard = no_guards};
+        // So short that nothing moves: with explicit_euler the row would burst.
+        return {.time_step = 1e-9, .skin = 0.1, .guard = no_guards};
     }
     [[nodiscard]] auto models() const { return std::tuple(impact_case<Law>::law(), equal_spheres{0.5, 1}); }
     [[nodiscard]] static std::uint64_t count() noexcept { return spheres; }
@@ -170,7 +171,8 @@ sweep impact_sweep() {
                     for (double w_dt = 0.5; w_dt < 4.05; w_dt *= 1.09) point("past", pi / w_dt);
             },
             [name] {
-                return cost_of("dem/cost/" + name, row_scene<Law, Integrator, Number>{}, 40);
+                return cost_of("dem/cost/" + name, row_scene<Law, Integrator, Number>{},
+                               40 / Integrator::force_evaluations);
             }};
 }
 

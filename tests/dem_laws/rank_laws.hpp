@@ -58,7 +58,8 @@ template <class Box>
 
 /// After so many steps a scene is where it is on one rank, to within `tolerance`; 0: bit for bit.
 ///
-/// on_one_rank(on, body) calls body with a transport of the type of `on` that has one rank: each scene is compiled once.
+/// on_one_rank(on, body) calls body with a transport of the type of `on` that has one rank: each scene is compiled
+/// once.
 /// @param change  done to each particle before the start
 template <class Scene, tsubu::transport Transport, class Check, class Change>
 void scene_does_not_depend_on_ranks(const Scene& scene, std::size_t steps, double tolerance, Transport& on,
@@ -137,14 +138,18 @@ void chain_does_not_depend_on_ranks(Transport& on, Check&& check) {
 }
 template <tsubu::transport Transport, class Check>
 void gas_does_not_depend_on_ranks(Transport& on, Check&& check) {
-    const tsubu::dem::gas_scene<> scene{.law = tsubu::dem::hooke<>{{2e4}}, .time_step = 1e-3, .per_edge = 5, .fraction = .1};
+    const tsubu::dem::gas_scene<> scene{.law = tsubu::dem::hooke<>{{2e4}},
+                                        .time_step = 1e-3,
+                                        .per_edge = 5,
+                                        .fraction = .1};
     scene_does_not_depend_on_ranks(scene, 1000, 1e-9, on, check);
 }
 template <tsubu::transport Transport, class Check>
 void bed_does_not_depend_on_ranks(Transport& on, Check&& check) {
     scene_does_not_depend_on_ranks(small_bed(), 1000, 1e-9, on, check, [](auto& bed) { push_sideways(bed); });
 }
-/// A bed goes on from a file as it would have gone on, whatever reads it; without what its contacts remember it does not.
+/// A bed goes on from a file as it would have gone on, whatever reads it; without what its contacts remember it does
+/// not.
 /// @param path  of a file that all ranks see
 template <tsubu::transport Transport, class Check>
 void bed_goes_on_from_a_file(Transport& on, const std::string& path, Check&& check) {

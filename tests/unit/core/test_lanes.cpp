@@ -14,8 +14,18 @@ namespace {
 template <class Real>
 std::vector<Real> many_numbers() {
     using limits = std::numeric_limits<Real>;
-    return {Real(0),      -Real(0),       Real(1),        Real(-2.5),           Real(1) / 3, limits::min(),
-            limits::max(), limits::denorm_min(), -limits::infinity(), limits::infinity(), Real(7e-20), Real(3e20)};
+    return {Real(0),
+            -Real(0),
+            Real(1),
+            Real(-2.5),
+            Real(1) / 3,
+            limits::min(),
+            limits::max(),
+            limits::denorm_min(),
+            -limits::infinity(),
+            limits::infinity(),
+            Real(7e-20),
+            Real(3e20)};
 }
 template <class Real>
 bool same_number(Real a, Real b) {
@@ -34,7 +44,8 @@ tsubu::lanes<Real> lanes_from(const std::vector<Real>& numbers, std::size_t firs
 TEMPLATE_TEST_CASE("what is done to lanes is done to each number", "[core][lanes]", float, double) {
     using V = tsubu::lanes<TestType>;
     static_assert(V::count * sizeof(TestType) == tsubu::lane_bytes);
-    static_assert(std::is_same_v<tsubu::number_of<V>, TestType> && std::is_same_v<tsubu::number_of<TestType>, TestType>);
+    static_assert(std::is_same_v<tsubu::number_of<V>, TestType> &&
+                  std::is_same_v<tsubu::number_of<TestType>, TestType>);
     const auto numbers = many_numbers<TestType>();
     for (std::size_t p = 0; p < numbers.size(); ++p)
         for (std::size_t q = 0; q < numbers.size(); ++q) {

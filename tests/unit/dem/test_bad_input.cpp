@@ -92,9 +92,11 @@ input with(const std::function<void(input&)>& change) {
 
 TEST_CASE("sound input is not refused", "[dem][bad_input]") {
     for (const std::size_t ranks : {1U, 3U})
-        for (const auto& text : messages(ranks, with([](input& of) { of.steps = 20; }))) CHECK(text == "nothing was thrown");
+        for (const auto& text : messages(ranks, with([](input& of) { of.steps = 20; })))
+            CHECK(text == "nothing was thrown");
     // An infinite mass holds a particle fast.
-    for (const auto& text : messages(1, with([](input& of) { of.mass = infinity; }))) CHECK(text == "nothing was thrown");
+    for (const auto& text : messages(1, with([](input& of) { of.mass = infinity; })))
+        CHECK(text == "nothing was thrown");
 }
 TEST_CASE("a particle that cannot be is refused by its id", "[dem][bad_input]") {
     check_refused(with([](input& of) { of.radius = -1; }),
@@ -102,8 +104,8 @@ TEST_CASE("a particle that cannot be is refused by its id", "[dem][bad_input]") 
     check_refused(with([](input& of) { of.radius = 0; }), {"particle 7 has a radius of 0 m"});
     check_refused(with([](input& of) { of.radius = not_a_number; }), {"particle 7 has a radius of nan m"});
     check_refused(with([](input& of) { of.radius = infinity; }), {"particle 7 has a radius of inf m"});
-    check_refused(with([](input& of) { of.mass = 0; }),
-                  {"dem::run::start", "particle 7 has a mass of 0 kg", "give a mass above 0; an infinite one holds it fast"});
+    check_refused(with([](input& of) { of.mass = 0; }), {"dem::run::start", "particle 7 has a mass of 0 kg",
+                                                         "give a mass above 0; an infinite one holds it fast"});
     check_refused(with([](input& of) { of.mass = -2; }), {"particle 7 has a mass of -2 kg"});
     check_refused(with([](input& of) { of.mass = not_a_number; }), {"particle 7 has a mass of nan kg"});
     check_refused(with([](input& of) { of.v[1] = not_a_number; }),
@@ -111,13 +113,18 @@ TEST_CASE("a particle that cannot be is refused by its id", "[dem][bad_input]") 
     check_refused(with([](input& of) { of.v[0] = -infinity; }), {"particle 7 has a velocity of -inf m/s on axis 0"});
     check_refused(with([](input& of) { of.x[0] = not_a_number; }),
                   {"particle 7 has a position of nan m on axis 0", "give finite numbers"});
-    check_refused(with([](input& of) { of.id = -3; }), {"particle -3 has a negative id", "ids of particles are 0 or greater"});
+    check_refused(with([](input& of) { of.id = -3; }),
+                  {"particle -3 has a negative id", "ids of particles are 0 or greater"});
 }
 TEST_CASE("particles that overlap by more than a radius are refused", "[dem][bad_input][guards]") {
-    check_refused(with([](input& of) { of.x = {5, 2.5 - 0x1p-10}; }),
+    check_refused(with([](input& of) {
+                      of.x = {5, 2.5 - 0x1p-10};
+                  }),
                   {"dem::run: step 0", "particle", "overlaps particle", "by 0.5", "more than a radius of 0.5 m",
                    "place them apart; or take a stiffer law, or a smaller time step"});
-    check_refused(with([](input& of) { of.x = {5, -.1}; }),
+    check_refused(with([](input& of) {
+                      of.x = {5, -.1};
+                  }),
                   {"particle 7 overlaps wall 0 by 0.6", "more than a radius of 0.5 m"});
     check_refused(with([](input& of) { of.x = {5, 2}; }), {"overlaps particle", "by 1 m"});
     // Just less is none of its business; nor is more, where the guard is off.
@@ -129,10 +136,12 @@ TEST_CASE("particles that overlap by more than a radius are refused", "[dem][bad
     })));
 }
 TEST_CASE("options that cannot be are refused", "[dem][bad_input]") {
-    check_refused(with([](input& of) { of.how.time_step = 0; }), {"dem::run", "a time step of 0 s", "give a finite time above 0"});
+    check_refused(with([](input& of) { of.how.time_step = 0; }),
+                  {"dem::run", "a time step of 0 s", "give a finite time above 0"});
     check_refused(with([](input& of) { of.how.time_step = -1e-4; }), {"a time step of -1e-04 s"});
     check_refused(with([](input& of) { of.how.time_step = not_a_number; }), {"a time step of nan s"});
-    check_refused(with([](input& of) { of.how.skin = -1; }), {"skin_watch", "a skin of -1 m", "give a finite length of at least 0"});
+    check_refused(with([](input& of) { of.how.skin = -1; }),
+                  {"skin_watch", "a skin of -1 m", "give a finite length of at least 0"});
     check_refused(with([](input& of) { of.how.skin = not_a_number; }), {"a skin of nan m"});
     check_refused(with([](input& of) { of.how.check_every = 0; }), {"every = 0", "give at least 1"});
     check_refused(with([](input& of) { of.how.cutoff = .9; }),
@@ -144,7 +153,9 @@ TEST_CASE("options that cannot be are refused", "[dem][bad_input]") {
                       of.radius = .6;
                   }),
                   {"a cutoff of 1.15 m, but the two largest particles touch at 1.2 m"});
-    check_refused(with([](input& of) { of.floor.planes[0].normal = {0, 2}; }),
+    check_refused(with([](input& of) {
+                      of.floor.planes[0].normal = {0, 2};
+                  }),
                   {"dem::walls", "the normal of wall 0 has the length 2", "give a unit vector"});
 }
 TEST_CASE("a time step past the limit is refused where contacts tell it", "[dem][bad_input][guards]") {
@@ -157,9 +168,8 @@ TEST_CASE("a time step past the limit is refused where contacts tell it", "[dem]
         });
     };
     const double limit = 2 / std::sqrt(2 * 1e5);
-    check_refused(touching(1.01 * limit),
-                  {"dem::run: step 0: a time step of", "contacts that are stable up to 0.00447", "take a smaller time step",
-                   "guards::time_step off"});
+    check_refused(touching(1.01 * limit), {"dem::run: step 0: a time step of", "contacts that are stable up to 0.00447",
+                                           "take a smaller time step", "guards::time_step off"});
     CHECK(messages(1, touching(.99 * limit))[0] == "nothing was thrown");
     auto unguarded = touching(1.01 * limit);
     unguarded.how.guard = no_guards;
@@ -175,8 +185,8 @@ TEST_CASE("coordinates that freeze are refused, others are not", "[dem][bad_inpu
                 run_type of(scene::box_type({0, -1}, {10, 10}, {.periodic = {true, false}}),
                             {.time_step = 1e-4, .skin = .1, .guard = {.coordinates = is_guarded}}, on,
                             hooke_dashpot<>{{1e5, 10}}, walls{}, spheres{});
-                of.particles().push_back(tsubu::id = 1, tsubu::position<2> = {5, 5}, tsubu::radius = .5, tsubu::mass = 1.0,
-                                         tsubu::velocity<2> = {units * unit / 1e-4, 0});
+                of.particles().push_back(tsubu::id = 1, tsubu::position<2> = {5, 5}, tsubu::radius = .5,
+                                         tsubu::mass = 1.0, tsubu::velocity<2> = {units * unit / 1e-4, 0});
                 of.start();
                 of.steps(1000);
                 // It moves at all if it is not frozen.
@@ -199,10 +209,13 @@ TEST_CASE("a scene at rest that begins to move is refused, where that is watched
         std::string said;
         tsubu::run_ranks(1, [&](local_transport& on) {
             run_type of(scene::box_type({0, -1}, {10, 10}, {.periodic = {true, false}}),
-                        {.time_step = time_step, .skin = .1, .guard = {.every = 10, .time_step = false, .energy_floor = floor}},
+                        {.time_step = time_step,
+                         .skin = .1,
+                         .guard = {.every = 10, .time_step = false, .energy_floor = floor}},
                         on, hooke_dashpot<>{{1, .01}},
                         walls{{{.point = {0, 0}, .normal = {0, 1}}, {.point = {0, .9}, .normal = {0, -1}}}}, spheres{});
-            of.particles().push_back(tsubu::id = 1, tsubu::position<2> = {5, .4501}, tsubu::radius = .5, tsubu::mass = 1.0);
+            of.particles().push_back(tsubu::id = 1, tsubu::position<2> = {5, .4501}, tsubu::radius = .5,
+                                     tsubu::mass = 1.0);
             of.start();
             said = thrown<tsubu::input_error>([&] { of.steps(400); });
         });
@@ -253,7 +266,8 @@ TEST_CASE("bonds without a spring, and springs that are out of reach, are refuse
         return text;
     };
     CHECK(said(1, 1, 1.5, 1) == "nothing was thrown");
-    CHECK(says(said(-1, 1, 1.5, 1), "dem::springs: springs of type 1 with k = -1 N/m and length 1 m; give finite numbers"));
+    CHECK(says(said(-1, 1, 1.5, 1),
+               "dem::springs: springs of type 1 with k = -1 N/m and length 1 m; give finite numbers"));
     const auto unknown = said(1, 1, 1.5, 0);
     INFO(unknown);
     CHECK(says(unknown, "a bond of type 1, of 0 kinds of springs"));
@@ -271,6 +285,7 @@ TEST_CASE("bodies that are all alike are checked before any is there", "[dem][ba
     CHECK(says(said(-1, 1), "dem::equal_spheres: a radius of -1; give a finite length above 0"));
     CHECK(says(said(not_a_number, 1), "a radius of nan"));
     CHECK(says(said(infinity, 1), "a radius of inf"));
-    CHECK(says(said(.5, 0), "dem::equal_spheres: a mass of 0; give a finite mass above 0; to hold particles fast take spheres"));
+    CHECK(says(said(.5, 0),
+               "dem::equal_spheres: a mass of 0; give a finite mass above 0; to hold particles fast take spheres"));
     CHECK(says(said(.5, infinity), "a mass of inf"));
 }

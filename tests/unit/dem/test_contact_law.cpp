@@ -67,7 +67,8 @@ void check_potential(const Law& law) {
         const double small = 1e-4 * d;
         CHECK((law.elastic(d + small, radius) - law.elastic(d - small, radius)) / (2 * small) ==
               Approx(law.stiffness(d, radius)).epsilon(1e-7));
-        // Simpson's rule in u^2 = overlap, where the force of Hertz is a polynomial: it is exact for neither law by chance.
+        // Simpson's rule in u^2 = overlap, where the force of Hertz is a polynomial: it is exact for neither law by
+        // chance.
         double work = 0;
         const int parts = 1000;
         const double top = std::sqrt(d);
@@ -213,13 +214,13 @@ TEST_CASE("rolling resistance is a spring that yields, and a dashpot until then"
     vec<3, double> memory{};
     for (int step = 1; step <= 5; ++step) {
         INFO("step " << step);
-        CHECK(law.act<true, 2, double>(at, memory).rolling[0] == Approx(-std::min(most, most * step / 2.5)).epsilon(1e-12));
+        CHECK(law.act<true, 2, double>(at, memory).rolling[0] ==
+              Approx(-std::min(most, most * step / 2.5)).epsilon(1e-12));
     }
     at.turning = {-at.turning[0]};
     CHECK(law.act<true, 2, double>(at, memory).rolling[0] == Approx(-most * 1.5 / 2.5).epsilon(1e-12));
 
-    const hooke<linear_history, rolling_resistance> damped{
-        {k}, {.k_t = 5e4, .mu = .5}, {.mu_r = mu_r, .eta_r = .3}};
+    const hooke<linear_history, rolling_resistance> damped{{k}, {.k_t = 5e4, .mu = .5}, {.mu_r = mu_r, .eta_r = .3}};
     at.turning = {1e-3};
     memory = {};
     const double inertia = 1.4 * at.mass * at.radius * at.radius;
@@ -444,9 +445,13 @@ TEST_CASE("a parameter that cannot be is named, with its value and the remedy", 
     check_says(thrown<input_error>([] { hooke<linear_history>{{1}, {0, 1}}; }), "stiffness k_t = 0 N/m");
     check_says(thrown<input_error>([] { hertz<mindlin_history>{{1}, {-1, 1}}; }), "effective shear modulus = -1 Pa");
     check_says(thrown<input_error>([] { hertz<mindlin_history>{{1}, {1, 1, -1}}; }), "share of damping = -1");
-    check_says(thrown<input_error>([] { hooke<coulomb, rolling_resistance>{{1}, {1, 1}, {0}}; }),
+    check_says(thrown<input_error>([] {
+                   hooke<coulomb, rolling_resistance>{{1}, {1, 1}, {0}};
+               }),
                "rolling resistance mu_r = 0");
-    check_says(thrown<input_error>([] { hooke<coulomb, rolling_resistance>{{1}, {1, 1}, {1, -1}}; }),
+    check_says(thrown<input_error>([] {
+                   hooke<coulomb, rolling_resistance>{{1}, {1, 1}, {1, -1}};
+               }),
                "rolling damping eta_r = -1");
     check_says(thrown<input_error>([] { hertz<dmt_cohesion>{{1}, {-1}}; }), "work of adhesion = -1 J/m^2");
 }

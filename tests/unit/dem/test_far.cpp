@@ -26,7 +26,8 @@ using namespace tsubu::dem;
 constexpr double origins[] = {0, 1e3, 1e6, 1e9};
 constexpr std::int64_t first_ids[] = {1, 2000000000, 9000000000000};
 
-/// A gas whose box and positions can be told exactly at all of these origins: they are multiples of 2^-20, cells of 2^-13.
+/// A gas whose box and positions can be told exactly at all of these origins: they are multiples of 2^-20, cells of
+/// 2^-13.
 template <class Number>
 struct exact_gas : gas_scene<hooke<>, velocity_verlet, Number> {
     using base = gas_scene<hooke<>, velocity_verlet, Number>;
@@ -98,9 +99,12 @@ const double contact_time = pi / std::sqrt(2e5 / .5);
 template <class Number>
 double restitution(double origin, std::int64_t first_id = 1, double phase = .5) {
     tsubu::self_transport on;
-    const pair_scene<hooke<>, velocity_verlet, Number> scene{
-        .law = hooke<>{{2e5}}, .time_step = contact_time / 50.37, .phase = phase, .origin = origin, .first_id = first_id,
-        .is_watched = false};
+    const pair_scene<hooke<>, velocity_verlet, Number> scene{.law = hooke<>{{2e5}},
+                                                             .time_step = contact_time / 50.37,
+                                                             .phase = phase,
+                                                             .origin = origin,
+                                                             .first_id = first_id,
+                                                             .is_watched = false};
     const auto pair = stage(scene, on);
     pair->steps(80);
     const auto v = pair->particles()[decltype(scene)::simulation::quantities_type::velocity];
@@ -110,8 +114,8 @@ double restitution(double origin, std::int64_t first_id = 1, double phase = .5) 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("on a lattice and in cells the origin does not matter, bit for bit", "[dem][far]", tsubu::lattice<std::int64_t>,
-                   tsubu::lattice<std::int32_t>, in_cells<float>) {
+TEMPLATE_TEST_CASE("on a lattice and in cells the origin does not matter, bit for bit", "[dem][far]",
+                   tsubu::lattice<std::int64_t>, tsubu::lattice<std::int32_t>, in_cells<float>) {
     const auto near = velocities_of_gas<TestType>(0, 1);
     for (const double origin : origins)
         for (const auto first_id : first_ids) {

@@ -174,16 +174,17 @@ TEST_CASE("a Hertzian impact is bounded above five steps, and gains energy below
     CHECK(error_of<velocity_verlet>(law, 1, hertz_duration(), 1.5) > .5);
 }
 TEST_CASE("spheres that hit a wall are pressed in as far, as hard and as long as Hertz says", "[dem][reference]") {
-    // Chung & Ooi 2011, doi:10.1007/s10035-011-0277-0, tests 1 to 3: two glass spheres, of which each sees the middle as
-    // a rigid wall; an aluminium alloy; cast iron.
+    // Chung & Ooi 2011, doi:10.1007/s10035-011-0277-0, tests 1 to 3: two glass spheres, of which each sees the middle
+    // as a rigid wall; an aluminium alloy; cast iron.
     struct material {
         double radius, modulus, nu, density, speed;
         double overlap, force, duration;
         bool is_pair;
     };
-    for (const material& one : {material{.01, 4.8e10, .2, 2800, 20, 274.112702e-6, 10696.889, 40.3394557e-6, true},
-                                material{.1, 7e10, .3, 2699, .2, 49.7171752e-6, 11369.8583, 731.656641e-6, false},
-                                material{.0025, 1e11, .25, 7000, 3.9, 17.1887136e-6, 506.760233, 12.9720806e-6, false}}) {
+    for (const material& one :
+         {material{.01, 4.8e10, .2, 2800, 20, 274.112702e-6, 10696.889, 40.3394557e-6, true},
+          material{.1, 7e10, .3, 2699, .2, 49.7171752e-6, 11369.8583, 731.656641e-6, false},
+          material{.0025, 1e11, .25, 7000, 3.9, 17.1887136e-6, 506.760233, 12.9720806e-6, false}}) {
         const double mass = 4 * pi / 3 * std::pow(one.radius, 3) * one.density;
         // Twice as stiff, and half the mass and radius of the pair: a body of the effective ones on a wall.
         const double share = one.is_pair ? .5 : 1;
@@ -197,8 +198,9 @@ TEST_CASE("spheres that hit a wall are pressed in as far, as hard and as long as
         const double h = exact.duration / 2000.37;
         tsubu::self_transport on;
         using scene = simulation<1, double, velocity_verlet, hertz<>, walls>;
-        const auto ball = one_sphere<scene>(on, h, radius + .5 * h * one.speed, -one.speed, hertz<>{{effective}},
-                                            walls{{{.point = {0}, .normal = {1}}}}, equal_spheres{radius, mass * share});
+        const auto ball =
+            one_sphere<scene>(on, h, radius + .5 * h * one.speed, -one.speed, hertz<>{{effective}},
+                              walls{{{.point = {0}, .normal = {1}}}}, equal_spheres{radius, mass * share});
         double overlap = 0;
         double force = 0;
         int touched = 0;
@@ -221,8 +223,12 @@ TEST_CASE("a ball bounces as its closed form says, time after time", "[dem][refe
     tsubu::self_transport on;
     const bounce_scene<> scene{.law = hooke_dashpot<>{{5e4, 10}}, .time_step = h};
     const auto ball = stage(scene, on);
-    bouncing_ball exact{
-        .height = scene.height, .radius = scene.radius, .mass = 1, .k = 5e4, .gamma = 10, .gravity = scene.acceleration};
+    bouncing_ball exact{.height = scene.height,
+                        .radius = scene.radius,
+                        .mass = 1,
+                        .k = 5e4,
+                        .gamma = 10,
+                        .gravity = scene.acceleration};
     for (int bounces = 1; bounces <= 5; ++bounces) {
         exact.bounce();
         ball->steps(static_cast<std::size_t>(exact.time / h) - ball->steps_done());
@@ -230,7 +236,8 @@ TEST_CASE("a ball bounces as its closed form says, time after time", "[dem][refe
         const double v = ball->particles()[tsubu::velocity<1>][0][0];
         INFO("bounce " << bounces);
         CHECK(ball->position(0)[0] + v * v / (2 * scene.acceleration) == Approx(exact.height).epsilon(50 * h));
-        CHECK(static_cast<double>(ball->steps_done()) * h + v / scene.acceleration == Approx(exact.time).epsilon(50 * h));
+        CHECK(static_cast<double>(ball->steps_done()) * h + v / scene.acceleration ==
+              Approx(exact.time).epsilon(50 * h));
     }
 }
 TEST_CASE("a ball that loses nothing comes back to where it began", "[dem][reference]") {
@@ -298,7 +305,8 @@ namespace {
 /// The displacement of mass n, in amplitudes.
 template <class Chain>
 double displacement(const Chain& chain, std::size_t i, double amplitude) {
-    return (chain.particles()[tsubu::position<1>][i][0] - static_cast<double>(chain.particles()[tsubu::id][i])) / amplitude;
+    return (chain.particles()[tsubu::position<1>][i][0] - static_cast<double>(chain.particles()[tsubu::id][i])) /
+           amplitude;
 }
 /// Of one mass on two springs, from the exact cosine, after about ten periods.
 template <class Integrator>
@@ -312,7 +320,8 @@ double error_of_oscillator(double steps_per_period) {
         one->steps(1);
         for (std::size_t i = 0; i < 3; ++i)
             if (one->particles()[tsubu::id][i] == 1)
-                error = std::fmax(error, std::abs(displacement(*one, i, scene.amplitude) - std::cos(w * step * scene.time_step)));
+                error = std::fmax(error, std::abs(displacement(*one, i, scene.amplitude) -
+                                                  std::cos(w * step * scene.time_step)));
     }
     return error;
 }

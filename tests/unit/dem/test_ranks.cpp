@@ -28,19 +28,24 @@ constexpr std::size_t rank_counts[] = {1, 2, 3, 4};
 
 TEST_CASE("a pair on any number of ranks is the same bit for bit", "[dem][ranks]") {
     for (const auto ranks : rank_counts)
-        comm_laws::check_on_ranks(ranks, [](auto& on, verdict& seen) { dem_laws::pair_does_not_depend_on_ranks(on, seen); });
+        comm_laws::check_on_ranks(ranks,
+                                  [](auto& on, verdict& seen) { dem_laws::pair_does_not_depend_on_ranks(on, seen); });
 }
 TEST_CASE("a chain on any number of ranks is the same bit for bit", "[dem][ranks]") {
     for (const auto ranks : rank_counts)
-        comm_laws::check_on_ranks(ranks, [](auto& on, verdict& seen) { dem_laws::chain_does_not_depend_on_ranks(on, seen); });
+        comm_laws::check_on_ranks(ranks,
+                                  [](auto& on, verdict& seen) { dem_laws::chain_does_not_depend_on_ranks(on, seen); });
 }
 TEST_CASE("a gas on any number of ranks is the same to rounding", "[dem][ranks]") {
     for (const auto ranks : rank_counts)
-        comm_laws::check_on_ranks(ranks, [](auto& on, verdict& seen) { dem_laws::gas_does_not_depend_on_ranks(on, seen); });
+        comm_laws::check_on_ranks(ranks,
+                                  [](auto& on, verdict& seen) { dem_laws::gas_does_not_depend_on_ranks(on, seen); });
 }
-TEST_CASE("a bed with friction that remembers is the same on any number of ranks, to rounding", "[dem][ranks][history]") {
+TEST_CASE("a bed with friction that remembers is the same on any number of ranks, to rounding",
+          "[dem][ranks][history]") {
     for (const auto ranks : rank_counts)
-        comm_laws::check_on_ranks(ranks, [](auto& on, verdict& seen) { dem_laws::bed_does_not_depend_on_ranks(on, seen); });
+        comm_laws::check_on_ranks(ranks,
+                                  [](auto& on, verdict& seen) { dem_laws::bed_does_not_depend_on_ranks(on, seen); });
 }
 TEST_CASE("a bed goes on from a restart file on any number of ranks", "[dem][ranks][history]") {
     const scratch_folder folder;

@@ -58,7 +58,8 @@ struct bed_with_options : settle_scene<> {
 template <class Run>
 std::vector<tsubu::vec<3>> states_of(const Run& bed) {
     std::vector<std::pair<std::int64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < bed.particles().owned_count(); ++i) order.emplace_back(bed.particles()[tsubu::id][i], i);
+    for (std::size_t i = 0; i < bed.particles().owned_count(); ++i)
+        order.emplace_back(bed.particles()[tsubu::id][i], i);
     std::sort(order.begin(), order.end());
     std::vector<tsubu::vec<3>> states;
     for (const auto& [id, i] : order) {
@@ -110,6 +111,15 @@ TEST_CASE("neighbours that were used too long are found out, and named", "[dem][
     bed_with_options scene;
     scene.cells = {5, 5, 6};
     tsubu::self_transport on;
+    // 2 v_max dt every is at most .04, below the skin of .1.
+    const auto after = [&](unsigned check_every) {
+        scene.check_every = check_every;
+        const auto bed = stage(scene, on);
+        bed->steps(800);
+        return states_of(*bed);
+    };
+    CHECK(farthest(after(20), after(1), 6) < 1e-9);
+
     scene.check_every = 500;
     const auto bed = stage(scene, on);
     const auto text = thrown<tsubu::input_error>([&] { bed->steps(5000); });
@@ -137,6 +147,28 @@ TEST_CASE("what contacts remember follows particles that are sorted, whatever th
     const auto ordinary = after(10, 0);
     CHECK(after(10, 2000000000) == ordinary);
     CHECK(after(10, 9000000000000) == ordinary);
+}
+TEST_CASE("of a contact each side remembers its own, whichever comes first", "[dem][history]") {
+    bed_with_options scene;
+    scene.cells = {5, 5, 6};
+    scene.sort_every = 0;
+    tsubu::self_transport on;
+    const auto after = [&](bool turns_round) {
+        const auto bed = stage(scene, on);
+        bed->steps(1500);
+        bed->keep_memory();
+        auto& particles = bed->particles();
+        particles.clear_ghosts();
+        if (turns_round) {
+            std::vector<tsubu::index_t> order;
+            for (auto i = particles.owned_count(); i-- > 0;) order.push_back(static_cast<tsubu::index_t>(i));
+            particles.permute(order);
+        }
+        bed->resume();
+        bed->steps(200);
+        return states_of(*bed);
+    };
+    CHECK(farthest(after(true), after(false), 6) < 1e-9);
 }
 TEST_CASE("a settled bed comes to rest below the limit, and boils above it in silence", "[dem][stability][slow]") {
     // A bed that has settled with strong damping; then with the damping of the scene at .70 and .80 sqrt(m/k).

@@ -54,8 +54,8 @@ TEST_CASE("a sphere that hits a floor at an angle leaves it as it should", "[dem
     CHECK(oblique_impact(1, 1, .5, .5).spin == Approx(2.857143).epsilon(1e-7));
 }
 TEST_CASE("a Hertzian sphere that slides through an impact loses what Coulomb takes", "[dem][reference]") {
-    // Chung & Ooi 2011, test 4: aluminium oxide on a rigid wall. At both angles it slides from touch to release, so that
-    // all laws of friction with mu agree: what counts is e = .98, here Tsuji's, and mu.
+    // Chung & Ooi 2011, test 4: aluminium oxide on a rigid wall. At both angles it slides from touch to release, so
+    // that all laws of friction with mu agree: what counts is e = .98, here Tsuji's, and mu.
     const double modulus = 3.8e11;
     const double nu = .23;
     const double radius = .0025;
@@ -111,8 +111,10 @@ TEST_CASE("a sphere that slides rolls in the end", "[dem][reference]") {
 TEST_CASE("on a slope a sphere rolls, and its friction is 2/7 of the pull", "[dem][reference]") {
     tsubu::self_transport on;
     const double gamma_t = 2e3;
-    const floor_scene<> scene{
-        .law = hooke_dashpot<coulomb>{{2e5, 50}, {.5, gamma_t}}, .time_step = 1e-4, .speed = 0, .slope = .1};
+    const floor_scene<> scene{.law = hooke_dashpot<coulomb>{{2e5, 50}, {.5, gamma_t}},
+                              .time_step = 1e-4,
+                              .speed = 0,
+                              .slope = .1};
     const auto one = stage(scene, on);
     one->steps(3000);
     const state_of rolling(*one);
@@ -136,11 +138,10 @@ TEST_CASE("without memory a sphere that does not roll creeps down a slope, with 
     const double gamma_t = 200;
     using creeping_law = hooke_dashpot<coulomb, rolling_resistance>;
     tsubu::self_transport on;
-    const floor_scene<creeping_law> creeping{
-        .law = creeping_law{{2e5, 50}, {.5, gamma_t}, {.mu_r = .2, .eta_r = .3}},
-        .time_step = 2e-4,
-        .speed = 0,
-        .slope = .1};
+    const floor_scene<creeping_law> creeping{.law = creeping_law{{2e5, 50}, {.5, gamma_t}, {.mu_r = .2, .eta_r = .3}},
+                                             .time_step = 2e-4,
+                                             .speed = 0,
+                                             .slope = .1};
     const auto one = stage(creeping, on);
     one->steps(5000);
     CHECK(state_of(*one).v[0] == Approx(g * std::sin(.1) / gamma_t).epsilon(1e-9));
@@ -164,7 +165,8 @@ TEST_CASE("rolling resistance holds below its slope, and rolls above it", "[dem]
         const double gained = state_of(*one).v[0] - before;
         INFO("tan(slope) = " << share << " mu_r");
         if (share < 1) CHECK(std::abs(gained) < 1e-12);
-        if (share > 1) CHECK(gained == Approx(5.0 / 7 * g * (std::sin(angle) - .2 * std::cos(angle)) * .2).epsilon(1e-6));
+        if (share > 1)
+            CHECK(gained == Approx(5.0 / 7 * g * (std::sin(angle) - .2 * std::cos(angle)) * .2).epsilon(1e-6));
     }
 }
 TEST_CASE("a resting sphere stays through new lists, restarts of the run and of the program", "[dem][history]") {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <tsubu/dem/implicit_velocity_verlet.hpp>
+#include <tsubu/dem/runge_kutta_4.hpp>
+#include <tsubu/dem/simulation.hpp>
+#include <tsubu/dem/springs.hpp>
+#include <tsubu/dem/velocity_verlet.hpp>
+
+#include <cstddef>
+
+using namespace tsubu::dem;
+using verlet = velocity_verlet;
+
+/// One type short of a model.
+struct half_a_model {
+    static constexpr auto role = model_role::acceleration;
+    template <class>
+    using reads = tsubu::fields<>;
+#if CASE != 20
+    template <class>
+    using partner_reads = tsubu::fields<>;
+#endif
+    template <class>
+    using writes = tsubu::fields<>;
+};
+
+#if CASE == 1
+using scene = simulation<4, double, verlet, hooke<>>;
+#elif CASE == 2
+using scene = simulation<3, double, verlet, hooke<>, hertz<>>;
+#elif CASE == 3
+using scene = simulation<3, double, verlet, gravity, walls>;
+#elif CASE == 4
+using scene = simulation<1, double, verlet, hooke<coulomb>>;
+#elif CASE == 5
+using scene = simulation<3, double, runge_kutta_4, hooke<linear_history>>;
+#elif CASE == 6
+using scene = simulation<3, double, runge_kutta_4, hooke<coulomb>>;
+#elif CASE == 7
+using scene = simulation<1, double, implicit_velocity_verlet, springs>;
+#elif CASE == 8
+using scene = simulation<3, double, verlet, hooke<coulomb, linear_history>>;
+#elif CASE == 9
+using scene = simulation<3, double, verlet, hooke<mindlin_history>>;
+#elif CASE == 10
+using scene = simulation<3, double, verlet, hertz<linear_history>>;
+#elif CASE == 11
+using scene = simulation<3, double, verlet, hooke<dmt_cohesion>>;
+#elif CASE == 12
+using scene = simulation<3, double, verlet, hooke<rolling_resistance>>;
+#elif CASE == 13
+using scene = simulation<3, double, verlet, hooke<without_attraction>>;
+#elif CASE == 14
+using scene = simulation<3, double, verlet, hertz_tsuji<dmt_cohesion, without_attraction>>;
+#elif CASE == 15
+using scene = simulation<3, double, verlet, hooke<>, equal_spheres, spheres>;
+#elif CASE == 16
+using scene = simulation<3, double, verlet, hooke<>, gravity, gravity>;
+#elif CASE == 17
+using scene = simulation<3, int, verlet, hooke<>>;
+#elif CASE == 18
+using scene = simulation<3, double, verlet, hooke<>, walls, walls>;
+#elif CASE == 19
+using scene = simulation<3, double, implicit_velocity_verlet, hooke_dashpot<coulomb>>;
+#else
+using scene = simulation<3, double, verlet, hooke<coulomb>, walls, half_a_model>;
+#endif
+
+int main() { return scene::bytes_per_particle > 0 ? 0 : 1; }

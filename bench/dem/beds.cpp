@@ -97,11 +97,12 @@ timed_contender rung(const std::string& name, const std::string& base, const Sce
                      const std::string& number = "double") {
     using run_type = typename decltype(stage(scene, alone()))::element_type;
     std::shared_ptr<run_type> made = stage(scene, alone());
-    constexpr std::size_t steps = 100;
-    return {"dem/ladder/" + name + "/" + base + "/" + number, static_cast<double>(steps * scene.count()),
+    constexpr std::size_t steps = 25;
+    constexpr std::size_t calls = 6;
+    return {"dem/ladder/" + name + "/" + base + "/" + number, static_cast<double>(calls * steps * scene.count()),
             [made](row_fields& fields) {
                 const auto lists = made->renewals();
-                const double seconds = seconds_of([&] { made->steps(steps); });
+                const double seconds = undisturbed_seconds(calls, [&] { made->steps(steps); });
                 const auto n = static_cast<double>(made->particles().owned_count());
                 std::size_t touching = 0;
                 made->each_contact([&](const auto& pair) { touching += pair.is_wall ? 0 : 1; });
@@ -194,12 +195,13 @@ void by_hand(row_reporter& report, extent how_much) {
 
     copy();
     const auto n = static_cast<double>(run->particles().owned_count());
-    constexpr std::size_t passes = 100;
-    const double units = static_cast<double>(passes) * n;
+    constexpr std::size_t passes = 10;
+    constexpr std::size_t calls = 12;
+    const double units = static_cast<double>(calls * passes) * n;
     // Forces of particles that stand still, and the motion under them, so that lists remain right.
     const auto passes_of = [](auto body) {
         return [body](row_fields&) {
-            return seconds_of([&] {
+            return undisturbed_seconds(calls, [&] {
                 for (std::size_t p = 0; p < passes; ++p) body();
             });
         };

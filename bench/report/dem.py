@@ -456,6 +456,7 @@ def ladder_chart(results, pyplot):
     figure, (times, sizes) = pyplot.subplots(1, 2, figsize=(11, .9 + .3 * len(rungs)), sharey=True,
                                              gridspec_kw={"wspace": .06, "width_ratios": (1.7, 1)})
     rivals = {rung: scene for scene, (_, _, rung) in SCENES.items() if rung and scene in results.scenes()}
+    longest = max(results.time("ladder", *rung) for rung in rungs)
     for k, rung in enumerate(rungs):
         name, _, number = rung
         time = results.time("ladder", *rung)
@@ -471,10 +472,10 @@ def ladder_chart(results, pyplot):
             their_size = results.field("bytes", "beside", rivals[name], "lammps", "double")
             if theirs:
                 times.plot([theirs, theirs], [k - .38, k + .38], color=THEIRS, linewidth=2.4, zorder=5,
-                           label="LAMMPS, the same law in the same bed")
+                           label="LAMMPS, same law and bed")
                 sizes.plot([their_size, their_size], [k - .38, k + .38], color=THEIRS, linewidth=2.4, zorder=5)
-                if abs(theirs - text_at) < .12 * max(theirs, text_at):
-                    text_at = max(theirs, text_at)
+                if 0 <= theirs - text_at < .12 * longest:  # in the way of the figure
+                    text_at = theirs
         times.annotate(figure_of(time), (text_at, k), xytext=(5, 0), textcoords="offset points", va="center",
                        fontsize=8)
     labels = [RUNGS.get(n, n) if number == "double" else f"history, {NUMBERS[number]}" for n, _, number in rungs]
@@ -487,7 +488,7 @@ def ladder_chart(results, pyplot):
         axes.grid(True, axis="x")
     sizes.tick_params(left=False)
     contacts = next((results.field("contacts", "ladder", *r) for r in rungs if r[0] == "history"), 0)
-    times.set_title(f"The same dense bed, {contacts:.2f} contacts per particle", loc="left")
+    times.set_title(f"Dense bed, {contacts:.2f} contacts per particle", loc="left")
     handles, names = times.get_legend_handles_labels()
     if names:
         legend_above(times, handles[:1], names[:1])

@@ -71,9 +71,10 @@ public:
     using release_type = typename detail::part_for<contact_role::release, until_separation, Parts...>::type;
 
 private:
-    static_assert(tangential_type::template goes_with<Normal>,
-                  "mindlin_history is the tangential stiffness of a Hertzian contact, linear_history that of a linear "
-                  "one: take the one with hertz, the other with hooke");
+    static_assert(Normal::is_hertzian || tangential_type::template goes_with<Normal>,
+                  "mindlin_history is the tangential stiffness of a Hertzian contact; take linear_history with hooke");
+    static_assert(!Normal::is_hertzian || tangential_type::template goes_with<Normal>,
+                  "linear_history is the tangential stiffness of a linear contact; take mindlin_history with hertz");
     static_assert(cohesion_type::template goes_with<Normal>,
                   "dmt_cohesion belongs to a Hertzian contact; take hertz or hertz_tsuji");
     static_assert(tangential_type::turns || !rolling_type::turns,

@@ -14,8 +14,8 @@ int main() {
     tsubu::self_transport on;  // or mpi_transport, where each rank adds particles of its own
     const scene::box_type box({0, 0, 0}, {6, 6, 12}, {.periodic = {true, true, false}});
     dem::run<scene, tsubu::self_transport> bed(
-        box, {.time_step = 2e-4, .skin = 0.1}, on,
-        scene::contact_type{{.k = 2e5, .gamma = 200}, {.k_t = 2e5 * 2 / 7, .mu = 0.5}},
+        box, {.time_step = 2e-3, .skin = 0.1}, on,
+        scene::contact_type{{.k = 1e4, .gamma = 60}, {.k_t = 1e4 * 2 / 7, .mu = 0.5}},
         dem::walls{{{.point = {0, 0, 0}, .normal = {0, 0, 1}}}}, dem::gravity{{0, 0, -1}},
         dem::equal_spheres{.radius = 0.5, .mass = 1});
 
@@ -26,9 +26,9 @@ int main() {
                                                                        1.2 * (i / 25) + 1});
     bed.start();  // each to its rank; neighbours, forces
     for (int n = 0; n < 5; ++n) {
-        bed.steps(20000);
+        bed.steps(1500);
         std::printf("%5.1f s  mean height %.3f m  kinetic energy %7.3f J  contacts per grain %.2f\n",
-                    2e-4 * static_cast<double>(bed.steps_done()), dem::mean_position(bed)[2], dem::kinetic_energy(bed),
+                    2e-3 * static_cast<double>(bed.steps_done()), dem::mean_position(bed)[2], dem::kinetic_energy(bed),
                     dem::coordination_number(bed));
     }
     tsubu::write_vtp("bed.vtp", bed.particles(), tsubu::position<3>);

@@ -180,11 +180,7 @@ template <class Mask>
     return chosen.bits() != 0;
 }
 
-/// The smaller and the greater of two, lane by lane.
-template <class Real>
-[[nodiscard, gnu::always_inline]] inline Real least(const Real& a, const Real& b) noexcept {
-    return select(b < a, b, a);
-}
+/// The greater of two, lane by lane.
 template <class Real>
 [[nodiscard, gnu::always_inline]] inline Real greatest(const Real& a, const Real& b) noexcept {
     return select(a < b, b, a);

@@ -189,7 +189,7 @@ private:
         has_been_at_rest_ = false;
         agreement<> all(on_->rank());
         store_.clear_ghosts();
-        all.attempt([&] { detail::check_particles<scene>(store_, bodies()); });
+        all.attempt([&] { detail::check_particles<scene>(store_); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
         refuse_duplicates();

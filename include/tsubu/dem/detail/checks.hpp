@@ -62,7 +62,7 @@ template <class Scene>
 
 /// @throws input_error at the first particle whose radius, mass, position or velocity is not what it may be.
 template <class Scene>
-void check_particles(const typename Scene::store_type& store, const typename Scene::bodies_type&) {
+void check_particles(const typename Scene::store_type& store) {
     constexpr auto D = Scene::dimension;
     using quantities = typename Scene::quantities_type;
     const auto refuse = [&](std::size_t i, const std::string& what, const char* remedy) {

@@ -61,7 +61,6 @@ public:
           watch_(how.skin, how.check_every) {}
 
     [[nodiscard]] const box_type& box() const noexcept { return parts_.whole(); }
-    [[nodiscard]] const parts_type& parts() const noexcept { return parts_; }
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return pairs_.pairs(); }
     [[nodiscard]] std::span<const index_pair> near_walls() const noexcept { return {near_walls_.data(), near_walls_.size()}; }
     [[nodiscard]] std::span<const wall_plane<D>> walls() const noexcept { return {walls_.data(), walls_.size()}; }

@@ -6,14 +6,13 @@
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/types.hpp>
+#include <tsubu/core/unrolled.hpp>
 
-#include <array>        // std::array
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::uint32_t
-#include <cstring>      // std::memcpy
-#include <limits>       // std::numeric_limits
-#include <type_traits>  // std::integral_constant
-#include <utility>      // std::index_sequence
+#include <array>    // std::array
+#include <cstddef>  // std::size_t
+#include <cstdint>  // std::uint32_t
+#include <cstring>  // std::memcpy
+#include <limits>   // std::numeric_limits
 
 namespace tsubu::detail {
 
@@ -90,7 +89,7 @@ public:
         const auto count = count_;
         for (auto b = begin; b < count; b += V::count) {
             V square(Real(0));
-            each_axis([&](auto d) {
+            unrolled<D>([&](auto d) {
                 typename V::native other;
                 std::memcpy(&other, x[d] + b, sizeof(other));
                 const V apart = at[d] - V(other);
@@ -109,17 +108,10 @@ public:
     }
 
 private:
-    // A loop over the axes that g++ unrolls at -O2 too.
-    template <class Body>
-    [[gnu::always_inline]] static void each_axis(Body&& body) {
-        [&]<std::size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
-            (body(std::integral_constant<std::size_t, K>{}), ...);
-        }(std::make_index_sequence<D>{});
-    }
     [[gnu::always_inline]] static void copy_chunk(const std::array<const Real*, D>& from,
                                                   const std::array<Real*, D>& to, const index_t* origin, index_t* index,
                                                   std::size_t b, std::size_t m) {
-        each_axis([&](auto k) { std::memcpy(to[k] + m, from[k] + b, chunk * sizeof(Real)); });
+        unrolled<D>([&](auto k) { std::memcpy(to[k] + m, from[k] + b, chunk * sizeof(Real)); });
         std::memcpy(index + m, origin + b, chunk * sizeof(index_t));
     }
     [[gnu::noinline]] void make_room(std::size_t count) {

@@ -139,7 +139,7 @@ private:
         char step[24];
         std::snprintf(step, sizeof step, "_%08llu", static_cast<unsigned long long>(run_->steps_done()));
         const auto own = path(step + (on_->ranks() == 1 ? std::string() : "_" + std::to_string(on_->rank())) + ".vtp");
-        constexpr auto x = run_type::scene::quantities_type::position;
+        constexpr auto x = run_type::simulation_type::quantities_type::position;
         tsubu::write_vtp(own, run_->particles(), x);
         if (!speaks()) return;
         std::string shown = asked_.name + step + ".vtp";
@@ -178,7 +178,7 @@ private:
             const auto at = static_cast<tsubu::index_t>(i);
             const auto x = run_->position(at);
             double square = 0;
-            for (const auto v : g[run_type::scene::quantities_type::velocity][i])
+            for (const auto v : g[run_type::simulation_type::quantities_type::velocity][i])
                 square += static_cast<double>(v) * static_cast<double>(v);
             for (std::size_t k = 0; k < 3; ++k) mine.push_back(std::bit_cast<std::uint64_t>(k < D ? x[k] : 0.0));
             mine.push_back(std::bit_cast<std::uint64_t>(run_->radius(at)));
@@ -194,7 +194,7 @@ private:
             }
         char title[128];
         std::snprintf(title, sizeof title, "%s: %zu %s%s, t = %.4g s", asked_.name.c_str(), spheres.size(),
-                      D == 2 && !run_type::scene::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s",
+                      D == 2 && !run_type::simulation_type::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s",
                       time());
         sphere_picture(title, D == 3).write(path(".svg"), spheres, outlines(spheres));
     }
@@ -208,7 +208,7 @@ private:
                 lo[k] = (std::min)(lo[k], one.x[k] - one.radius);
                 hi[k] = (std::max)(hi[k], one.x[k] + one.radius);
             }
-        if constexpr (run_type::scene::has_walls) {
+        if constexpr (run_type::simulation_type::has_walls) {
             for (const auto& wall : run_->template model<walls>().planes) {
                 if constexpr (D == 1) lines.push_back({{wall.point[0], -1, 0}, {wall.point[0], 1, 0}, true});
                 if constexpr (D == 2) {
@@ -225,7 +225,7 @@ private:
             }
         }
         if constexpr (D == 3) {
-            if constexpr (run_type::scene::has_walls) lo[2] = 0;
+            if constexpr (run_type::simulation_type::has_walls) lo[2] = 0;
             for (unsigned edge = 0; edge < 12; ++edge) {
                 const std::size_t along = edge / 4;
                 std::array<double, 3> from = lo;

@@ -107,7 +107,7 @@ timed_contender rung(const std::string& name, const std::string& base, const Sce
                 std::size_t touching = 0;
                 made->each_contact([&](const auto& pair) { touching += pair.is_wall ? 0 : 1; });
                 fields.emplace_back("bytes", static_cast<double>(made->memory_bytes()) / n);
-                fields.emplace_back("carried", static_cast<double>(run_type::scene::bytes_per_particle));
+                fields.emplace_back("carried", static_cast<double>(run_type::simulation_type::bytes_per_particle));
                 fields.emplace_back("neighbors", static_cast<double>(made->pairs().size()) / n);
                 fields.emplace_back("contacts", static_cast<double>(touching) / n);
                 fields.emplace_back("renewals", static_cast<double>(made->renewals() - lists));

@@ -24,11 +24,11 @@ namespace dem_laws {
 /// Positions and velocities of all particles in the order of their ids, on each rank. Collective.
 template <class Run>
 [[nodiscard]] std::vector<double> all_states(Run& of, std::int64_t first_id, std::size_t count) {
-    constexpr auto D = Run::scene::dimension;
+    constexpr auto D = Run::simulation_type::dimension;
     std::vector<double> all(count * 2 * D, 0.0);
     for (std::size_t i = 0; i < of.particles().owned_count(); ++i) {
         const auto x = of.position(static_cast<tsubu::index_t>(i));
-        const auto v = of.particles()[Run::scene::quantities_type::velocity][i];
+        const auto v = of.particles()[Run::simulation_type::quantities_type::velocity][i];
         const auto row = static_cast<std::size_t>(of.particles()[tsubu::id][i] - first_id) * 2 * D;
         for (std::size_t k = 0; k < D; ++k) {
             all[row + k] += x[k];
@@ -159,7 +159,7 @@ void bed_goes_on_from_a_file(Transport& on, const std::string& path, Check&& che
     const auto first = tsubu::dem::stage(scene, on);
     push_sideways(*first);
     first->steps(1000);
-    first->keep_memory();
+    first->keep_history();
     tsubu::write_restart(on, path, first->particles(), simulation::restart_fields{});
     first->steps(100);
     const auto expected = all_states(*first, 1, count);
@@ -175,7 +175,7 @@ void bed_goes_on_from_a_file(Transport& on, const std::string& path, Check&& che
             tsubu::read_restart(path, other.particles(), simulation::restart_fields{});
         if (forgets)
             for (std::size_t i = 0; i < other.particles().size(); ++i)
-                other.particles()[simulation::quantities_type::contacts<simulation::springs>][i].clear();
+                other.particles()[simulation::quantities_type::contacts<simulation::history_size>][i].clear();
         other.resume();
         other.steps(100);
         return farthest(all_states(other, 1, count), expected, other.box(), 3);

@@ -25,7 +25,7 @@ inline constexpr bool is_set = std::is_same_v<Set, tsubu::fields<Fields...>>;
 /// Spins, torques and memory: what friction brings.
 template <class Scene>
 inline constexpr bool is_frictionless =
-    !Scene::turns && !Scene::remembers && Scene::springs == 0 && !has<Scene, tsubu::torque<Scene::dimension>> &&
+    !Scene::turns && !Scene::has_history && Scene::history_size == 0 && !has<Scene, tsubu::torque<Scene::dimension>> &&
     !has<Scene, tsubu::angular_velocity<Scene::dimension>>;
 template <class Scene>
 inline constexpr bool is_of_equal_spheres = !has<Scene, tsubu::radius> && !has<Scene, tsubu::mass>;
@@ -67,19 +67,19 @@ static_assert(!has<disks, tsubu::position<3>> && !has<disks, tsubu::velocity<3>>
 // oblique: rotation, friction, history, wall; no gravity.
 using oblique = oblique_scene<>::simulation;
 static_assert(oblique::dimension == 2 && oblique::has_walls && !oblique::has_gravity && oblique::turns);
-static_assert(oblique::remembers && oblique::springs == 2 && is_of_equal_spheres<oblique>);
+static_assert(oblique::has_history && oblique::history_size == 2 && is_of_equal_spheres<oblique>);
 // In a plane a spin is one number.
 static_assert(has<oblique, tsubu::angular_velocity<2>> && oblique::quantities_type::spins == 1);
 static_assert(is_set<oblique::forward_fields, tsubu::position<2>, tsubu::velocity<2>, tsubu::angular_velocity<2>>);
 
 // slip to roll: friction without memory.
 using roll = floor_scene<>::simulation;
-static_assert(roll::turns && !roll::remembers && roll::has_gravity && roll::has_walls);
+static_assert(roll::turns && !roll::has_history && roll::has_gravity && roll::has_walls);
 static_assert(roll::bytes_per_particle == 8 + 6 * 8 + 2 * 8);
 
 // settle: all of it, but no cohesion, rolling or bonds.
 using settle = settle_scene<>::simulation;
-static_assert(settle::turns && settle::remembers && settle::springs == 3 && settle::has_gravity && settle::has_walls);
+static_assert(settle::turns && settle::has_history && settle::history_size == 3 && settle::has_gravity && settle::has_walls);
 static_assert(!settle::has_springs && is_of_equal_spheres<settle> && !has<settle, tsubu::bonds>);
 static_assert(std::is_same_v<settle::contact_type::rolling_type, free_rolling>);
 static_assert(std::is_same_v<settle::contact_type::cohesion_type, cohesionless>);

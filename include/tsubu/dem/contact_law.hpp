@@ -77,7 +77,7 @@ private:
                   "linear_history is the tangential stiffness of a linear contact; take mindlin_history with hertz");
     static_assert(cohesion_type::template goes_with<Normal>,
                   "dmt_cohesion belongs to a Hertzian contact; take hertz or hertz_tsuji");
-    static_assert(tangential_type::turns || !rolling_type::turns,
+    static_assert(tangential_type::turns || !rolling_type::resists,
                   "rolling_resistance without friction: nothing makes a sphere roll; add a law of friction");
     static_assert(Normal::is_damped || !release_type::never_pulls,
                   "without_attraction is the end of a damped contact; this normal law never pulls");
@@ -90,20 +90,20 @@ public:
     static constexpr bool needs_velocity = Normal::is_damped || turns;
     /// Whether what a contact does depends on its past, and how many numbers hold that.
     template <std::size_t D>
-    static constexpr std::size_t springs = tangential_type::template springs<D> + rolling_type::template springs<D>;
+    static constexpr std::size_t history_size = tangential_type::template history_size<D> + rolling_type::template history_size<D>;
 
     template <class Q>
     using partner_reads = union_of<typename Q::place_fields,
                                    union_of<std::conditional_t<needs_velocity, fields<Q::velocity>, fields<>>,
                                             std::conditional_t<turns, fields<Q::angular_velocity>, fields<>>>>;
     template <class Q>
-    using remembers = std::conditional_t<springs<Q::dimension> != 0,
-                                         fields<Q::template contacts<springs<Q::dimension>>>, fields<>>;
+    using history = std::conditional_t<history_size<Q::dimension> != 0,
+                                         fields<Q::template contacts<history_size<Q::dimension>>>, fields<>>;
     template <class Q>
-    using reads = union_of<partner_reads<Q>, remembers<Q>>;
+    using reads = union_of<partner_reads<Q>, history<Q>>;
     template <class Q>
     using writes = union_of<fields<Q::force>,
-                            union_of<std::conditional_t<turns, fields<Q::torque>, fields<>>, remembers<Q>>>;
+                            union_of<std::conditional_t<turns, fields<Q::torque>, fields<>>, history<Q>>>;
 
     contact_law() = default;
     /// Any order of the parts. @throws input_error if a parameter is negative, 0 where it may not be, or not finite.
@@ -135,17 +135,17 @@ public:
         return force;
     }
     /// What the contact does, and what it remembers then.
-    /// @param[in,out] memory  [springs<D>]
+    /// @param[in,out] memory  [history_size<D>]
     template <bool IsDamped, std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] contact_action<D, Real> act(const contact<D, Real>& at,
-                                                                  vec<springs<D>, Real>& memory) const noexcept {
+                                                                  vec<history_size<D>, Real>& memory) const noexcept {
         const Real repulsion = normal_force<IsDamped, D, Real>(at);
         Real along = repulsion;
         if constexpr (cohesion_type::pulls) along = along - cohesion_.pull(at.radius);
         contact_action<D, Real> result;
         result.force = scaled<D, Real>(at.normal, along);
         if constexpr (turns) {
-            constexpr auto own = tangential_type::template springs<D>;
+            constexpr auto own = tangential_type::template history_size<D>;
             auto spring =
                 vector_of<own, Real>([&](auto k) __attribute__((always_inline)) { return memory[k]; });
             const auto friction = tangential_.template force<D, Real>(
@@ -153,7 +153,7 @@ public:
             unrolled<own>([&](auto k) __attribute__((always_inline)) { memory[k] = spring[k]; });
             result.force = plus<D, Real>(result.force, friction);
             result.twist = torque_of(at.normal, friction);
-            if constexpr (rolling_type::turns) {
+            if constexpr (rolling_type::resists) {
                 constexpr auto spins = contact<D, Real>::spins;
                 auto turn = vector_of<spins, Real>(
                     [&](auto k) __attribute__((always_inline)) { return memory[own + k]; });

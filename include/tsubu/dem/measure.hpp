@@ -42,7 +42,7 @@ template <class Vector>
 template <class Run>
 [[nodiscard]] double kinetic_energy(Run& of) {
     double sum = 0;
-    const auto v = of.particles().owned()[Run::scene::quantities_type::velocity];
+    const auto v = of.particles().owned()[Run::simulation_type::quantities_type::velocity];
     for (std::size_t i = 0; i < v.size(); ++i)
         if (const double m = of.mass(static_cast<index_t>(i)); detail::is_movable(m))
             sum += m / 2 * detail::square_of(v[i]);
@@ -52,8 +52,8 @@ template <class Run>
 template <class Run>
 [[nodiscard]] double rotational_energy(Run& of) {
     double sum = 0;
-    if constexpr (Run::scene::turns) {
-        const auto w = of.particles().owned()[Run::scene::quantities_type::angular_velocity];
+    if constexpr (Run::simulation_type::turns) {
+        const auto w = of.particles().owned()[Run::simulation_type::quantities_type::angular_velocity];
         for (std::size_t i = 0; i < w.size(); ++i) {
             const auto at = static_cast<index_t>(i);
             if (const double m = of.mass(at); detail::is_movable(m))
@@ -67,12 +67,12 @@ template <class Run>
 [[nodiscard]] double elastic_energy(Run& of) {
     double sum = 0;
     const auto owned = of.particles().owned_count();
-    if constexpr (Run::scene::has_contacts)
+    if constexpr (Run::simulation_type::has_contacts)
         of.each_contact([&](const auto& pair) {
             const bool is_shared = !pair.is_wall && static_cast<std::size_t>(pair.j) >= owned;
-            const auto& law = of.template model<typename Run::scene::contact_type>();
+            const auto& law = of.template model<typename Run::simulation_type::contact_type>();
             double energy = law.normal().energy(pair.at.overlap, pair.at.radius);
-            if constexpr (Run::scene::contact_type::cohesion_type::pulls)
+            if constexpr (Run::simulation_type::contact_type::cohesion_type::pulls)
                 energy -= law.cohesion().pull(pair.at.radius) * pair.at.overlap;
             sum += (is_shared ? 0.5 : 1.0) * energy;
         });
@@ -86,7 +86,7 @@ template <class Run>
 template <class Run>
 [[nodiscard]] double gravity_energy(Run& of) {
     double sum = 0;
-    if constexpr (Run::scene::has_gravity)
+    if constexpr (Run::simulation_type::has_gravity)
         for (std::size_t i = 0; i < of.particles().owned_count(); ++i) {
             const auto at = static_cast<index_t>(i);
             if (!detail::is_movable(of.mass(at))) continue;
@@ -98,8 +98,8 @@ template <class Run>
 /// Sum of m v [kg m/s].
 template <class Run>
 [[nodiscard]] auto momentum(Run& of) {
-    std::array<double, Run::scene::dimension> sum{};
-    const auto v = of.particles().owned()[Run::scene::quantities_type::velocity];
+    std::array<double, Run::simulation_type::dimension> sum{};
+    const auto v = of.particles().owned()[Run::simulation_type::quantities_type::velocity];
     for (std::size_t i = 0; i < v.size(); ++i)
         if (const double m = of.mass(static_cast<index_t>(i)); detail::is_movable(m))
             for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += m * static_cast<double>(v[i][k]);
@@ -108,7 +108,7 @@ template <class Run>
 /// Sum of x / N [m].
 template <class Run>
 [[nodiscard]] auto mean_position(Run& of) {
-    constexpr auto D = Run::scene::dimension;
+    constexpr auto D = Run::simulation_type::dimension;
     std::array<double, D + 1> sum{};
     for (std::size_t i = 0; i < of.particles().owned_count(); ++i) {
         const auto x = of.position(static_cast<index_t>(i));

@@ -79,13 +79,13 @@ concept number_policy = requires {
 static_assert(number_policy<double> && number_policy<mixed_precision<double, float>> &&
               number_policy<lattice<std::int32_t>> && number_policy<in_cells<float>>);
 
-/// What a particle remembers of a contact: with whom, and the springs that the laws have stretched there.
+/// The history of a contact, as a particle carries it: with whom, and the springs that the laws have stretched there.
 ///
 /// @tparam Count  how many numbers
 template <class Real, std::size_t Count>
-struct remembered_contact {
+struct past_contact {
     std::int64_t partner;  ///< the id of the other particle; of wall w it is -1 - w
-    vec<Count, Real> springs;
+    vec<Count, Real> history;
 };
 
 /// The quantities of a scene: their types, and the fields that hold them.
@@ -108,7 +108,7 @@ struct quantities {
     static constexpr auto angular_velocity = tsubu::angular_velocity<D, real>;
     static constexpr auto torque = tsubu::torque<D, real>;
     template <std::size_t Count>
-    static constexpr field<"contacts", list_of<remembered_contact<real, Count>>, "",
+    static constexpr field<"contacts", list_of<past_contact<real, Count>>, "",
                            field_traits{.when = travels::never}>
         contacts{};
 };

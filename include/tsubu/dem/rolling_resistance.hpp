@@ -16,9 +16,9 @@ namespace tsubu::dem {
 /// No torque against rolling.
 struct free_rolling {
     static constexpr auto role = contact_role::rolling;
-    static constexpr bool turns = false;
+    static constexpr bool resists = false;
     template <std::size_t D>
-    static constexpr std::size_t springs = 0;
+    static constexpr std::size_t history_size = 0;
     void check() const {}
 };
 
@@ -30,9 +30,9 @@ struct free_rolling {
 /// Source: Ai, Chen, Rotter & Ooi 2011, doi:10.1016/j.powtec.2010.09.030, model C, eqs. 13 to 20 (f = 0).
 struct rolling_resistance {
     static constexpr auto role = contact_role::rolling;
-    static constexpr bool turns = true;
+    static constexpr bool resists = true;
     template <std::size_t D>
-    static constexpr std::size_t springs = contact<D, double>::spins;
+    static constexpr std::size_t history_size = contact<D, double>::spins;
     double mu_r;       ///< coefficient of rolling resistance: tan of the steepest slope on which a sphere stays
     double eta_r = 0;  ///< share of the critical damping
 

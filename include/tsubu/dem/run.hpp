@@ -31,7 +31,7 @@
 
 namespace tsubu::dem {
 
-template <class Scene, transport Transport>
+template <class Simulation, transport Transport>
 class run;
 
 /// A scene with its particles on the ranks of a transport.
@@ -49,18 +49,18 @@ class run;
 template <std::size_t D, number_policy Number, integrator Integrator, model... Models, transport Transport>
 class run<simulation<D, Number, Integrator, Models...>, Transport> {
 public:
-    using scene = simulation<D, Number, Integrator, Models...>;
-    using box_type = typename scene::box_type;
-    using store_type = typename scene::store_type;
-    using real = typename scene::real;
+    using simulation_type = simulation<D, Number, Integrator, Models...>;
+    using box_type = typename simulation_type::box_type;
+    using store_type = typename simulation_type::store_type;
+    using real = typename simulation_type::real;
     using transport_type = Transport;
 
     /// @throws input_error if a parameter is not what it may be; the message names it, and the remedy.
     run(const box_type& box, const options& how, Transport& on, const Models&... models)
-        requires scene::names_bodies
+        requires simulation_type::names_bodies
         : run(box, how, on, std::tuple<Models...>(models...)) {}
     run(const box_type& box, const options& how, Transport& on, const Models&... models, const equal_spheres& bodies)
-        requires(!scene::names_bodies)
+        requires(!simulation_type::names_bodies)
         : run(box, how, on, std::tuple<Models..., equal_spheres>(models..., bodies)) {}
     run(const run&) = delete;
     run& operator=(const run&) = delete;
@@ -100,20 +100,20 @@ public:
         is_started_ = true;
     }
     /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
-    void keep_memory() { near_.keep_memory(store_); }
+    void keep_history() { near_.keep_history(store_); }
 
     /// body(touching_pair<D>) for each contact of an owned particle; of those across a border each side has one.
     template <class Body>
     void each_contact(Body&& body) const {
-        if constexpr (scene::has_contacts)
-            detail::each_touching<scene>(at_, near_.pairs(), near_.near_walls(), near_.walls(), body);
+        if constexpr (simulation_type::has_contacts)
+            detail::each_touching<simulation_type>(at_, near_.pairs(), near_.near_walls(), near_.walls(), body);
     }
     /// body(i, j, spring): each spring from each side that is owned here.
     template <class Body>
     void each_spring(Body&& body) const {
-        if constexpr (scene::has_springs)
+        if constexpr (simulation_type::has_springs)
             for (const auto& [i, j, kind] : near_.springs())
-                body(i, j, model<typename scene::springs_type>().kinds[static_cast<std::size_t>(kind)]);
+                body(i, j, model<typename simulation_type::springs_type>().kinds[static_cast<std::size_t>(kind)]);
     }
     /// From particle j to i, the shorter way round on a lattice [m].
     [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
@@ -159,17 +159,17 @@ public:
     }
 
 private:
-    using columns_type = detail::columns<scene>;
-    using bodies_type = typename scene::bodies_type;
+    using columns_type = detail::columns<simulation_type>;
+    using bodies_type = typename simulation_type::bodies_type;
 
-    run(const box_type& box, const options& how, Transport& on, const typename scene::models_type& models)
+    run(const box_type& box, const options& how, Transport& on, const typename simulation_type::models_type& models)
         : how_(how),
           on_(&on),
           models_(models),
-          near_(box, checked(how), on, bodies(), detail::walls_of<scene>(models_), detail::spring_kinds_of<scene>(models_)) {
+          near_(box, checked(how), on, bodies(), detail::walls_of<simulation_type>(models_), detail::spring_kinds_of<simulation_type>(models_)) {
         std::apply([](const auto&... one) { (detail::check_model(one), ...); }, models_);
-        if constexpr (scene::has_gravity)
-            for (std::size_t k = 0; k < D; ++k) gravity_[k] = model<typename scene::gravity_type>().acceleration[k];
+        if constexpr (simulation_type::has_gravity)
+            for (std::size_t k = 0; k < D; ++k) gravity_[k] = model<typename simulation_type::gravity_type>().acceleration[k];
     }
     static const options& checked(const options& how) {
         if (!(how.time_step > 0) || !tsubu::detail::is_finite(how.time_step))
@@ -179,7 +179,7 @@ private:
     }
     [[nodiscard]] const bodies_type& bodies() const noexcept { return model<bodies_type>(); }
     [[nodiscard]] auto mover() const noexcept {
-        return detail::motion<scene>(at_, store_.owned_count(), gravity_);
+        return detail::motion<simulation_type>(at_, store_.owned_count(), gravity_);
     }
     void travel(real fastest_square, double duration) noexcept {
         near_.travel(std::sqrt(static_cast<double>(fastest_square)) * std::abs(duration));
@@ -189,11 +189,11 @@ private:
         has_been_at_rest_ = false;
         agreement<> all(on_->rank());
         store_.clear_ghosts();
-        all.attempt([&] { detail::check_particles<scene>(store_); });
+        all.attempt([&] { detail::check_particles<simulation_type>(store_); });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
         refuse_duplicates();
-        near_.renew(store_, typename scene::restart_fields{});
+        near_.renew(store_, typename simulation_type::restart_fields{});
         at_ = columns_type(store_, box(), bodies());
         look();
         if (finds_forces) {
@@ -221,17 +221,17 @@ private:
     /// @param finish  to be called before anything is read of ghosts
     template <class Finish>
     void find_forces(double time_step, Finish&& finish) {
-        if constexpr (scene::has_contacts) {
-            const detail::contact_kernel<scene> kernel(at_, model<typename scene::contact_type>(), time_step);
-            auto& memory = near_.memory();
+        if constexpr (simulation_type::has_contacts) {
+            const detail::contact_kernel<simulation_type> kernel(at_, model<typename simulation_type::contact_type>(), time_step);
+            auto& history = near_.history();
             const auto pairs = near_.pairs();
             const auto inner = near_.inner_pairs();
-            kernel.act_on_pairs(pairs.first(inner), memory.pair_touches(), memory.pair_springs());
+            kernel.act_on_pairs(pairs.first(inner), history.pair_touches(), history.pair_history());
             finish();
-            kernel.act_on_pairs(pairs.subspan(inner), memory.pair_touches() + (scene::remembers ? inner : 0),
-                                memory.pair_springs() + (scene::remembers ? inner : 0));
-            if constexpr (scene::has_walls)
-                kernel.act_on_walls(near_.near_walls(), near_.walls(), memory.wall_touches(), memory.wall_springs());
+            kernel.act_on_pairs(pairs.subspan(inner), history.pair_touches() + (simulation_type::has_history ? inner : 0),
+                                history.pair_history() + (simulation_type::has_history ? inner : 0));
+            if constexpr (simulation_type::has_walls)
+                kernel.act_on_walls(near_.near_walls(), near_.walls(), history.wall_touches(), history.wall_history());
         } else {
             finish();
         }
@@ -248,10 +248,10 @@ private:
 
     options how_;
     Transport* on_;
-    typename scene::models_type models_;
+    typename simulation_type::models_type models_;
     vec<D, double> gravity_{};
     store_type store_;
-    detail::neighborhood<scene, Transport> near_;
+    detail::neighborhood<simulation_type, Transport> near_;
     columns_type at_;
     std::uint64_t steps_ = 0;
     bool has_been_at_rest_ = false;

@@ -39,7 +39,7 @@ struct runge_kutta_4 {
 
     template <class Run>
     static void advance(Run& run, double h, std::size_t steps) {
-        using quantities = typename Run::scene::quantities_type;
+        using quantities = typename Run::simulation_type::quantities_type;
         for (std::size_t n = 0; n < steps; ++n) {
             for (auto& one : run.particles().owned()[so_far<quantities>]) one = {};
             stage(run, 1, h / 2, true);
@@ -54,7 +54,7 @@ private:
     // Positions move by differences: where a stage is wrapped into the box, the next goes on from there.
     template <class Run>
     static void stage(Run& run, double weight, double duration, bool is_first) {
-        using quantities = typename Run::scene::quantities_type;
+        using quantities = typename Run::simulation_type::quantities_type;
         using real = typename quantities::real;
         const auto states = run.particles().owned()[so_far<quantities>];
         const auto velocities = run.particles().owned()[quantities::velocity];
@@ -79,7 +79,7 @@ private:
     }
     template <class Run>
     static void finish(Run& run, double h) {
-        using quantities = typename Run::scene::quantities_type;
+        using quantities = typename Run::simulation_type::quantities_type;
         using real = typename quantities::real;
         const auto states = run.particles().owned()[so_far<quantities>];
         const auto velocities = run.particles().owned()[quantities::velocity];

@@ -105,14 +105,14 @@ struct simulation {
     }();
     static_assert(D > 1 || !turns, "friction in one dimension: there is no direction along the surface");
     /// How many numbers each contact remembers.
-    static constexpr std::size_t springs = [] {
+    static constexpr std::size_t history_size = [] {
         if constexpr (has_contacts)
-            return contact_type::template springs<D>;
+            return contact_type::template history_size<D>;
         else
             return std::size_t{0};
     }();
-    static constexpr bool remembers = springs != 0;
-    static_assert(!remembers || Integrator::force_evaluations == 1,
+    static constexpr bool has_history = history_size != 0;
+    static_assert(!has_history || Integrator::force_evaluations == 1,
                   "a contact that remembers takes one step per force; take velocity_verlet or an Euler method");
 
     static_assert(!turns || Integrator::moves_spins,

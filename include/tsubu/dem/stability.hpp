@@ -66,7 +66,7 @@ template <std::size_t D>
 /// Source: Rayleigh's quotient, with (n (x_i - x_j))^2 <= 2 (n x_i)^2 + 2 (n x_j)^2; a wall stands still, and counts half.
 template <class Run>
 [[nodiscard]] double greatest_frequency(const Run& of) {
-    constexpr auto D = Run::scene::dimension;
+    constexpr auto D = Run::simulation_type::dimension;
     std::vector<std::array<vec<D, double>, D>> sums(of.particles().owned_count());
     const auto add = [&](std::size_t i, const vec<D, double>& n, double k) {
         if (i >= sums.size()) return;  // a ghost: its owner sees to it
@@ -74,14 +74,14 @@ template <class Run>
             for (std::size_t b = 0; b < D; ++b) sums[i][a][b] += k * n[a] * n[b];
     };
     double stuck = 0;  // the square of the greatest frequency of slip
-    if constexpr (Run::scene::has_contacts)
+    if constexpr (Run::simulation_type::has_contacts)
         of.each_contact([&](const auto& pair) {
-            const double k = of.template model<typename Run::scene::contact_type>().normal().stiffness(pair.at.overlap,
+            const double k = of.template model<typename Run::simulation_type::contact_type>().normal().stiffness(pair.at.overlap,
                                                                                                      pair.at.radius);
             // A wall does not move: half of what a partner that moves the other way would give.
             add(static_cast<std::size_t>(pair.i), pair.at.normal, pair.is_wall ? k / 2 : k);
             if (!pair.is_wall) add(static_cast<std::size_t>(pair.j), pair.at.normal, k);
-            const auto& friction = of.template model<typename Run::scene::contact_type>().tangential();
+            const auto& friction = of.template model<typename Run::simulation_type::contact_type>().tangential();
             if constexpr (requires { friction.stiffness(pair.at.overlap, pair.at.radius); })
                 if (pair.at.mass > 0)
                     stuck = (std::max)(stuck, 3.5 * friction.stiffness(pair.at.overlap, pair.at.radius) / pair.at.mass);

@@ -22,8 +22,8 @@ template <std::size_t D, class Real>
 
 /// The force along the surface.
 ///  1. force(contact, F_n, damping of the normal law, springs) acts on i, at right angles to the normal, and changes `springs`
-///     [springs<D>], which are 0 when the contact begins.
-/// A law without memory has springs<D> == 0; goes_with<Normal> tells which normal laws have its stiffness.
+///     [history_size<D>], which are 0 when the contact begins.
+/// A law without memory has history_size<D> == 0; goes_with<Normal> tells which normal laws have its stiffness.
 ///
 /// No force: nothing turns then.
 struct frictionless {
@@ -32,7 +32,7 @@ struct frictionless {
     template <class Normal>
     static constexpr bool goes_with = true;
     template <std::size_t D>
-    static constexpr std::size_t springs = 0;
+    static constexpr std::size_t history_size = 0;
     void check() const {}
 };
 
@@ -46,7 +46,7 @@ struct coulomb {
     template <class Normal>
     static constexpr bool goes_with = true;
     template <std::size_t D>
-    static constexpr std::size_t springs = 0;
+    static constexpr std::size_t history_size = 0;
     double mu;       ///< coefficient of friction
     double gamma_t;  ///< damping per effective mass [1/s]
 
@@ -110,7 +110,7 @@ struct linear_history {
     template <class Normal>
     static constexpr bool goes_with = !Normal::is_hertzian;
     template <std::size_t D>
-    static constexpr std::size_t springs = D;
+    static constexpr std::size_t history_size = D;
     double k_t;          ///< stiffness along the surface [N/m]; 2/7 of the normal one keeps their times in step
     double mu;           ///< coefficient of friction
     double gamma_t = 0;  ///< damping per effective mass [1/s]
@@ -144,7 +144,7 @@ struct mindlin_history {
     template <class Normal>
     static constexpr bool goes_with = Normal::is_hertzian;
     template <std::size_t D>
-    static constexpr std::size_t springs = D;
+    static constexpr std::size_t history_size = D;
     double shear_modulus;  ///< effective: 1/G* = (2 - nu_i)/G_i + (2 - nu_j)/G_j [Pa]
     double mu;             ///< coefficient of friction
     double damping = 0;    ///< share of the normal damping, without a unit

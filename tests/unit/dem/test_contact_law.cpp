@@ -260,7 +260,7 @@ TEST_CASE("cohesion of DMT pulls by 2 pi w R* as long as bodies touch, and frict
 namespace {
 
 template <class Law, std::size_t D>
-using memory_of = vec<Law::template springs<D>, double>;
+using memory_of = vec<Law::template history_size<D>, double>;
 
 /// j sees the opposite of what i sees, but for the twist, which both have.
 template <std::size_t D, class Law>
@@ -283,7 +283,7 @@ void check_reaction(const Law& law) {
         if constexpr (Law::turns)
             for (std::size_t k = 0; k < on_i.twist.size(); ++k) {
                 CHECK(on_i.twist[k] == on_j.twist[k]);
-                if constexpr (Law::rolling_type::turns) CHECK(on_i.rolling[k] == -on_j.rolling[k]);
+                if constexpr (Law::rolling_type::resists) CHECK(on_i.rolling[k] == -on_j.rolling[k]);
             }
         if constexpr (Law::turns) {
             // What friction adds is at right angles to the normal, and within Coulomb's limit.
@@ -300,7 +300,7 @@ void check_reaction(const Law& law) {
 template <class Law>
 void check_in_plane(const Law& law) {
     tsubu::random_stream random(7);
-    constexpr auto planar = Law::template springs<2>;
+    constexpr auto planar = Law::template history_size<2>;
     for (int n = 0; n < 50; ++n) {
         const auto flat = any_contact<2>(random);
         contact<3, double> deep{};
@@ -322,7 +322,7 @@ void check_in_plane(const Law& law) {
             if constexpr (Law::turns) {
                 CHECK(a.twist[0] == Approx(b.twist[2]).epsilon(1e-12).margin(1e-12));
                 CHECK(b.twist[0] == 0);
-                if constexpr (Law::rolling_type::turns) {
+                if constexpr (Law::rolling_type::resists) {
                     CHECK(a.rolling[0] == Approx(b.rolling[2]).epsilon(1e-12).margin(1e-12));
                     CHECK(in_plane[planar - 1] == Approx(in_space[5]).epsilon(1e-12).margin(1e-12));
                 }
@@ -339,7 +339,7 @@ bool same_bits(double a, double b) { return a == b || (std::isnan(a) && std::isn
 template <std::size_t D, class Law>
 void check_lanes(const Law& law) {
     using V = lanes<double>;
-    constexpr auto springs = Law::template springs<D>;
+    constexpr auto springs = Law::template history_size<D>;
     tsubu::random_stream random(3);
     for (int n = 0; n < 30; ++n) {
         contact<D, V> all{};
@@ -374,7 +374,7 @@ void check_lanes(const Law& law) {
             if constexpr (Law::turns)
                 for (std::size_t k = 0; k < alone.twist.size(); ++k) {
                     same = same && same_bits(together.twist[k][l], alone.twist[k]);
-                    if constexpr (Law::rolling_type::turns)
+                    if constexpr (Law::rolling_type::resists)
                         same = same && same_bits(together.rolling[k][l], alone.rolling[k]);
                 }
             CHECK(same);

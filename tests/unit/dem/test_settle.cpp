@@ -156,7 +156,7 @@ TEST_CASE("of a contact each side remembers its own, whichever comes first", "[d
     const auto after = [&](bool turns_round) {
         const auto bed = stage(scene, on);
         bed->steps(1500);
-        bed->keep_memory();
+        bed->keep_history();
         auto& particles = bed->particles();
         particles.clear_ghosts();
         if (turns_round) {
@@ -179,7 +179,7 @@ TEST_CASE("a settled bed comes to rest below the limit, and boils above it in si
     scene.time_step = 2e-3;
     const auto settled = stage(scene, on);
     settled->steps(15000);
-    settled->keep_memory();
+    settled->keep_history();
     const auto after = [&](double share) {
         auto again = scene;
         again.law = hooke_dashpot<linear_history>{{.k = 2e3, .gamma = 5}, {.k_t = 2e3 * 2 / 7, .mu = .5}};

@@ -179,7 +179,7 @@ TEST_CASE("a resting sphere stays through new lists, restarts of the run and of 
         other.steps(500);
         return std::fmax(std::abs(state_of(other).x[0] - at_rest[0]), std::abs(state_of(other).x[1] - at_rest[1]));
     };
-    one->keep_memory();
+    one->keep_history();
     const scratch_folder folder;
     const auto path = folder / "rest.tsubu";
     using simulation = decltype(scene)::simulation;
@@ -187,7 +187,7 @@ TEST_CASE("a resting sphere stays through new lists, restarts of the run and of 
 
     CHECK(moved(*one) < 1e-12);
 
-    one->keep_memory();
+    one->keep_history();
     one->start();
     CHECK(moved(*one) < 1e-12);
 
@@ -202,7 +202,7 @@ TEST_CASE("a resting sphere stays through new lists, restarts of the run and of 
             scene.models());
         tsubu::read_restart(path, made->particles(), simulation::restart_fields{});
         CHECK(made->particles().size() == 1);
-        if (forgets) made->particles()[simulation::quantities_type::contacts<simulation::springs>][0].clear();
+        if (forgets) made->particles()[simulation::quantities_type::contacts<simulation::history_size>][0].clear();
         made->resume();
         return made;
     };

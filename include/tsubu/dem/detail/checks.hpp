@@ -30,48 +30,48 @@ void check_model(const Model& one) {
     if constexpr (requires { one.check(); }) one.check();
 }
 /// The walls in the dimensions of the scene.
-template <class Scene>
-[[nodiscard]] std::vector<wall_plane<Scene::dimension>> walls_of(const typename Scene::models_type& models) {
-    std::vector<wall_plane<Scene::dimension>> result;
-    if constexpr (Scene::has_walls)
-        for (const auto& one : std::get<typename Scene::walls_type>(models).planes) {
-            wall_plane<Scene::dimension> wall;
-            for (std::size_t k = 0; k < Scene::dimension; ++k) {
+template <class Simulation>
+[[nodiscard]] std::vector<wall_plane<Simulation::dimension>> walls_of(const typename Simulation::models_type& models) {
+    std::vector<wall_plane<Simulation::dimension>> result;
+    if constexpr (Simulation::has_walls)
+        for (const auto& one : std::get<typename Simulation::walls_type>(models).planes) {
+            wall_plane<Simulation::dimension> wall;
+            for (std::size_t k = 0; k < Simulation::dimension; ++k) {
                 wall.point[k] = one.point[k];
                 wall.normal[k] = one.normal[k];
             }
-            for (auto k = Scene::dimension; k < 3; ++k)
+            for (auto k = Simulation::dimension; k < 3; ++k)
                 if (one.normal[k] != 0)
                     tsubu::detail::raise<input_error>(
                         "dem::walls",
                         "the normal of wall " + std::to_string(result.size()) + " has a component " +
                             tsubu::detail::shown(one.normal[k]) + " along axis " + std::to_string(k) + " of a scene in " +
-                            std::to_string(Scene::dimension) + " dimensions",
+                            std::to_string(Simulation::dimension) + " dimensions",
                         "give a normal in the dimensions of the scene");
             result.push_back(wall);
         }
     return result;
 }
-template <class Scene>
-[[nodiscard]] std::size_t spring_kinds_of(const typename Scene::models_type& models) {
-    if constexpr (Scene::has_springs)
-        return std::get<typename Scene::springs_type>(models).kinds.size();
+template <class Simulation>
+[[nodiscard]] std::size_t spring_kinds_of(const typename Simulation::models_type& models) {
+    if constexpr (Simulation::has_springs)
+        return std::get<typename Simulation::springs_type>(models).kinds.size();
     else
         return 0;
 }
 
 /// @throws input_error at the first particle whose radius, mass, position or velocity is not what it may be.
-template <class Scene>
-void check_particles(const typename Scene::store_type& store) {
-    constexpr auto D = Scene::dimension;
-    using quantities = typename Scene::quantities_type;
+template <class Simulation>
+void check_particles(const typename Simulation::store_type& store) {
+    constexpr auto D = Simulation::dimension;
+    using quantities = typename Simulation::quantities_type;
     const auto refuse = [&](std::size_t i, const std::string& what, const char* remedy) {
         tsubu::detail::raise<input_error>("dem::run::start", "particle " + std::to_string(store[tsubu::id][i]) + " has " + what,
                                           remedy);
     };
     for (std::size_t i = 0; i < store.owned_count(); ++i) {
         if (store[tsubu::id][i] < 0) refuse(i, "a negative id", "ids of particles are 0 or greater");
-        if constexpr (!Scene::bodies_type::are_equal) {
+        if constexpr (!Simulation::bodies_type::are_equal) {
             const double r = store[tsubu::radius][i];
             const double m = store[tsubu::mass][i];
             if (!(r > 0) || !tsubu::detail::is_finite(r))
@@ -80,7 +80,7 @@ void check_particles(const typename Scene::store_type& store) {
                 refuse(i, "a mass of " + tsubu::detail::shown(m) + " kg",
                        "give a mass above 0; an infinite one holds it fast");
         }
-        if constexpr (Scene::turns)
+        if constexpr (Simulation::turns)
             for (const auto w : store[quantities::angular_velocity][i])
                 if (!tsubu::detail::is_finite(w))
                     refuse(i, "an angular velocity of " + tsubu::detail::shown(w) + " rad/s", "give finite numbers");
@@ -93,7 +93,7 @@ void check_particles(const typename Scene::store_type& store) {
             if (!tsubu::detail::is_finite(v))
                 refuse(i, "a velocity of " + tsubu::detail::shown(v) + " m/s on axis " + std::to_string(k),
                        "give finite numbers");
-            if constexpr (!is_lattice<typename Scene::coordinate>) {
+            if constexpr (!is_lattice<typename Simulation::coordinate>) {
                 const auto x = store[quantities::position][i][k];
                 if (!tsubu::detail::is_finite(x))
                     refuse(i, "a position of " + tsubu::detail::shown(x) + " m on axis " + std::to_string(k),
@@ -106,8 +106,8 @@ void check_particles(const typename Scene::store_type& store) {
 /// Looks at what guards watch.
 template <class Run>
 class watcher {
-    using scene = typename Run::scene;
-    static constexpr auto D = scene::dimension;
+    using simulation = typename Run::simulation_type;
+    static constexpr auto D = simulation::dimension;
 
 public:
     explicit watcher(Run& of) noexcept : of_(of) {}
@@ -162,8 +162,8 @@ private:
     /// Of the first touch of the lightest particles, if the law is as stiff from there on: what a scene without contacts
     /// will have.
     [[nodiscard]] double least_frequency_of_contact() const {
-        if constexpr (scene::has_contacts) {
-            const double k = of_.template model<typename scene::contact_type>().normal().stiffness(0.0, 1.0);
+        if constexpr (simulation::has_contacts) {
+            const double k = of_.template model<typename simulation::contact_type>().normal().stiffness(0.0, 1.0);
             double lightest = std::numeric_limits<double>::infinity();
             for (std::size_t i = 0; i < of_.particles().owned_count(); ++i)
                 lightest = (std::min)(lightest, of_.mass(static_cast<index_t>(i)));
@@ -186,7 +186,7 @@ private:
         bool is_free = false;
         for (std::size_t i = 0; i < particles.owned_count(); ++i)
             for (std::size_t k = 0; k < D; ++k) {
-                const double v = std::abs(static_cast<double>(particles[scene::quantities_type::velocity][i][k]));
+                const double v = std::abs(static_cast<double>(particles[simulation::quantities_type::velocity][i][k]));
                 const double in_units = v * of_.how().time_step / resolution(static_cast<index_t>(i), k);
                 if (in_units > fastest) {
                     fastest = in_units;
@@ -203,13 +203,13 @@ private:
     }
     /// The distance of neighbouring coordinates where a particle is [m].
     [[nodiscard]] double resolution(index_t i, std::size_t k) const {
-        using coordinate = typename scene::coordinate;
-        if constexpr (scene::quantities_type::has_offsets) {
-            return of_.box().along(k).length_of(1.0) * static_cast<double>(std::numeric_limits<typename scene::real>::epsilon());
+        using coordinate = typename simulation::coordinate;
+        if constexpr (simulation::quantities_type::has_offsets) {
+            return of_.box().along(k).length_of(1.0) * static_cast<double>(std::numeric_limits<typename simulation::real>::epsilon());
         } else if constexpr (is_lattice<coordinate>) {
             return of_.box().along(k).length_of(1.0);
         } else {
-            const auto x = std::abs(of_.particles()[scene::quantities_type::position][i][k]);
+            const auto x = std::abs(of_.particles()[simulation::quantities_type::position][i][k]);
             return static_cast<double>(std::nextafter(x, (std::numeric_limits<coordinate>::max)()) - x);
         }
     }

@@ -27,12 +27,12 @@ struct wall_plane {
 };
 
 /// The columns that a scene has, taken anew whenever particles have come or gone.
-template <class Scene>
+template <class Simulation>
 struct columns {
-    static constexpr auto D = Scene::dimension;
-    using quantities = typename Scene::quantities_type;
-    using coordinate = typename Scene::coordinate;
-    using real = typename Scene::real;
+    static constexpr auto D = Simulation::dimension;
+    using quantities = typename Simulation::quantities_type;
+    using coordinate = typename Simulation::coordinate;
+    using real = typename Simulation::real;
     using position_type = vec<D, coordinate>;
     using vector_type = vec<D, real>;
     using spin_type = vec<D == 2 ? 1 : 3, real>;
@@ -49,21 +49,21 @@ struct columns {
     real mass_of_all{};
     std::array<double, D> step{};              // of a lattice [m]
     std::array<double, D> steps_per_length{};  // [1/m]
-    const typename Scene::box_type* box = nullptr;
+    const typename Simulation::box_type* box = nullptr;
 
     columns() = default;
-    columns(typename Scene::store_type& store, const typename Scene::box_type& where,
-            const typename Scene::bodies_type& bodies)
+    columns(typename Simulation::store_type& store, const typename Simulation::box_type& where,
+            const typename Simulation::bodies_type& bodies)
         : x(store[quantities::position].data()),
           v(store[quantities::velocity].data()),
           f(store[quantities::force].data()),
           box(&where) {
         if constexpr (quantities::has_offsets) offset = store[quantities::offset].data();
-        if constexpr (Scene::turns) {
+        if constexpr (Simulation::turns) {
             w = store[quantities::angular_velocity].data();
             t = store[quantities::torque].data();
         }
-        if constexpr (Scene::bodies_type::are_equal) {
+        if constexpr (Simulation::bodies_type::are_equal) {
             radius_of_all = static_cast<real>(bodies.radius);
             mass_of_all = static_cast<real>(bodies.mass);
         } else {
@@ -95,13 +95,13 @@ struct columns {
         return at;
     }
     [[nodiscard, gnu::always_inline]] real radius_at(index_t i) const noexcept {
-        if constexpr (Scene::bodies_type::are_equal)
+        if constexpr (Simulation::bodies_type::are_equal)
             return radius_of_all;
         else
             return static_cast<real>(radius[i]);
     }
     [[nodiscard, gnu::always_inline]] real mass_at(index_t i) const noexcept {
-        if constexpr (Scene::bodies_type::are_equal)
+        if constexpr (Simulation::bodies_type::are_equal)
             return mass_of_all;
         else
             return static_cast<real>(mass[i]);

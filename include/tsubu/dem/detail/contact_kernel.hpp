@@ -31,17 +31,17 @@ using touch_state = std::uint8_t;
 // waits for the next.
 
 /// Finds who touches, and lets the law act.
-template <class Scene>
+template <class Simulation>
 class contact_kernel {
-    static constexpr auto D = Scene::dimension;
-    static constexpr auto spins = Scene::quantities_type::spins;
-    static constexpr auto springs = Scene::springs;
-    static constexpr bool turns = Scene::turns;
-    using real = typename Scene::real;
-    using law_type = typename Scene::contact_type;
+    static constexpr auto D = Simulation::dimension;
+    static constexpr auto spins = Simulation::quantities_type::spins;
+    static constexpr auto history_size = Simulation::history_size;
+    static constexpr bool turns = Simulation::turns;
+    using real = typename Simulation::real;
+    using law_type = typename Simulation::contact_type;
     using V = lanes<real>;
     static constexpr auto width = static_cast<unsigned>(V::count);
-    using memory_type = vec<springs, real>;
+    using history_type = vec<history_size, real>;
     static constexpr std::uint32_t block = 256;  // what is noted of a block stays in the first-level cache
     /// Where bodies touch, and how far they overlap.
     struct shape {
@@ -50,25 +50,25 @@ class contact_kernel {
     };
 
 public:
-    contact_kernel(const columns<Scene>& of, const law_type& law, double time_step) noexcept
+    contact_kernel(const columns<Simulation>& of, const law_type& law, double time_step) noexcept
         : of_(of), law_(law), time_step_(static_cast<real>(time_step)) {}
 
     /// @param touches  of each pair; null if the law remembers nothing
-    /// @param memory   of each pair; likewise
-    void act_on_pairs(std::span<const index_pair> pairs, touch_state* touches, memory_type* memory) const {
-        walk<pair_meeting>(pair_meeting{of_, pairs.data()}, pairs.size(), touches, memory);
+    /// @param history   of each pair; likewise
+    void act_on_pairs(std::span<const index_pair> pairs, touch_state* touches, history_type* history) const {
+        walk<pair_meeting>(pair_meeting{of_, pairs.data()}, pairs.size(), touches, history);
     }
     /// @param near  i is a particle, j a wall
     void act_on_walls(std::span<const index_pair> near, std::span<const wall_plane<D>> planes, touch_state* touches,
-                      memory_type* memory) const {
-        walk<wall_meeting>(wall_meeting{of_, near.data(), planes.data()}, near.size(), touches, memory);
+                      history_type* history) const {
+        walk<wall_meeting>(wall_meeting{of_, near.data(), planes.data()}, near.size(), touches, history);
     }
 
 private:
     /// Two particles.
     struct pair_meeting {
         static constexpr bool has_partner = true;
-        const columns<Scene>& of;
+        const columns<Simulation>& of;
         const index_pair* pairs;
 
         [[gnu::always_inline]] index_t first(std::uint32_t k) const noexcept { return pairs[k].i; }
@@ -90,7 +90,7 @@ private:
         }
         template <class Which>
         [[gnu::always_inline]] V radii(Which which) const noexcept {
-            if constexpr (Scene::bodies_type::are_equal)
+            if constexpr (Simulation::bodies_type::are_equal)
                 return V(2 * of.radius_of_all);
             else
                 return V::of([&](auto l) __attribute__((always_inline)) {
@@ -106,7 +106,7 @@ private:
         }
         template <class Which>
         [[gnu::always_inline]] void measure(Which which, contact<D, V>& at) const noexcept {
-            if constexpr (Scene::bodies_type::are_equal) {
+            if constexpr (Simulation::bodies_type::are_equal) {
                 at.mass = V(of.mass_of_all / 2);
                 at.radius = V(of.radius_of_all / 2);
             } else {
@@ -137,7 +137,7 @@ private:
                         return of.radius_at(pair.i) * of.w[pair.i][k] + of.radius_at(pair.j) * of.w[pair.j][k];
                     });
                 });
-                if constexpr (law_type::rolling_type::turns)
+                if constexpr (law_type::rolling_type::resists)
                     at.turning = vector_of<spins, V>([&](auto k) __attribute__((always_inline)) {
                         return V::of([&](auto l) __attribute__((always_inline)) {
                             const auto& pair = pairs[which(l)];
@@ -150,7 +150,7 @@ private:
     /// A particle and a wall.
     struct wall_meeting {
         static constexpr bool has_partner = false;
-        const columns<Scene>& of;
+        const columns<Simulation>& of;
         const index_pair* pairs;
         const wall_plane<D>* planes;
 
@@ -198,7 +198,7 @@ private:
     };
 
     template <class Meeting>
-    void walk(const Meeting& meet, std::size_t count, touch_state* touches, memory_type* memory) const {
+    void walk(const Meeting& meet, std::size_t count, touch_state* touches, history_type* history) const {
         std::uint32_t active[block + 2 * width];
         shape shapes[block / width + 2];
         std::uint32_t waiting = 0;
@@ -213,13 +213,13 @@ private:
             const auto groups = waiting / width;
             for (std::uint32_t g = 0; g < groups; ++g) shapes[g] = meet.find_shape(chosen(active + g * width));
             for (std::uint32_t g = 0; g < groups; ++g)
-                act(meet, shapes[g], active + g * width, width, touches, memory);
+                act(meet, shapes[g], active + g * width, width, touches, history);
             waiting -= groups * width;
             for (std::uint32_t l = 0; l < waiting; ++l) active[l] = active[groups * width + l];
         }
         if (waiting != 0) {
             for (auto l = waiting; l < width; ++l) active[l] = active[0];
-            act(meet, meet.find_shape(chosen(active)), active, waiting, touches, memory);
+            act(meet, meet.find_shape(chosen(active)), active, waiting, touches, history);
         }
     }
     [[gnu::always_inline]] static auto chosen(const std::uint32_t* active) noexcept {
@@ -231,28 +231,28 @@ private:
             const auto touching = bits >> l & 1U;
             active[waiting] = static_cast<std::uint32_t>(k + l);
             waiting += touching;
-            if constexpr (springs != 0)
+            if constexpr (history_size != 0)
                 touches[k + l] = static_cast<touch_state>((unsigned{touches[k + l]} << 1U | touching) & 3U);
         }
     }
     template <class Meeting>
     [[gnu::always_inline]] void act(const Meeting& meet, const shape& where, const std::uint32_t* active,
-                                    unsigned count, const touch_state* touches, memory_type* memory) const noexcept {
+                                    unsigned count, const touch_state* touches, history_type* history) const noexcept {
         contact<D, V> at;
         at.normal = where.normal;
         at.overlap = where.overlap;
         meet.measure(chosen(active), at);
         at.time_step = V(time_step_);
-        auto remembered = vector_of<springs, V>([&](auto k) __attribute__((always_inline)) {
+        auto past = vector_of<history_size, V>([&](auto k) __attribute__((always_inline)) {
             return V::of([&](auto l) __attribute__((always_inline)) {
-                return (touches[active[l]] & 2U) != 0 ? memory[active[l]][k] : real(0);
+                return (touches[active[l]] & 2U) != 0 ? history[active[l]][k] : real(0);
             });
         });
-        const auto action = law_.template act<!Scene::integrator_type::solves_damping, D, V>(at, remembered);
+        const auto action = law_.template act<!Simulation::integrator_type::solves_damping, D, V>(at, past);
         unrolled<width>([&](auto l) __attribute__((always_inline)) {
             if (l >= count) return;
             const auto which_one = active[l];
-            unrolled<springs>([&](auto k) __attribute__((always_inline)) { memory[which_one][k] = remembered[k][l]; });
+            unrolled<history_size>([&](auto k) __attribute__((always_inline)) { history[which_one][k] = past[k][l]; });
             const auto i = meet.first(which_one);
             auto& on_i = of_.f[i];
             unrolled<D>([&](auto k) __attribute__((always_inline)) { on_i[k] += action.force[k][l]; });
@@ -260,7 +260,7 @@ private:
                 const real arm = of_.radius_at(i);
                 auto& turns_i = of_.t[i];
                 unrolled<spins>([&](auto k) __attribute__((always_inline)) { turns_i[k] -= arm * action.twist[k][l]; });
-                if constexpr (law_type::rolling_type::turns)
+                if constexpr (law_type::rolling_type::resists)
                     unrolled<spins>([&](auto k) __attribute__((always_inline)) { turns_i[k] += action.rolling[k][l]; });
             }
             if constexpr (Meeting::has_partner) {
@@ -272,7 +272,7 @@ private:
                     auto& turns_j = of_.t[j];
                     unrolled<spins>(
                         [&](auto k) __attribute__((always_inline)) { turns_j[k] -= arm * action.twist[k][l]; });
-                    if constexpr (law_type::rolling_type::turns)
+                    if constexpr (law_type::rolling_type::resists)
                         unrolled<spins>(
                             [&](auto k) __attribute__((always_inline)) { turns_j[k] -= action.rolling[k][l]; });
                 }
@@ -280,7 +280,7 @@ private:
         });
     }
 
-    const columns<Scene>& of_;
+    const columns<Simulation>& of_;
     const law_type& law_;
     real time_step_;
 };

@@ -36,12 +36,12 @@ struct damped_contact {
 /// Collective: a forward and a reduction for each round. @throws input_error if that does not come to rest.
 template <class Run>
 void solve_damping(Run& of, double half_step) {
-    using scene = typename Run::scene;
-    using quantities = typename scene::quantities_type;
-    using real = typename scene::real;
-    using law_type = typename scene::contact_type;
-    constexpr auto D = scene::dimension;
-    constexpr auto solved = scene::integrator_type::template solved<quantities>;
+    using simulation = typename Run::simulation_type;
+    using quantities = typename simulation::quantities_type;
+    using real = typename simulation::real;
+    using law_type = typename simulation::contact_type;
+    constexpr auto D = simulation::dimension;
+    constexpr auto solved = simulation::integrator_type::template solved<quantities>;
     auto& store = of.store_;
     const auto& law = of.template model<law_type>();
 
@@ -60,7 +60,7 @@ void solve_damping(Run& of, double half_step) {
     }
     constexpr int most_rounds = 10000;
     for (int round = 0;; ++round) {
-        of.near_.forward(store, fields<scene::integrator_type::template solved<quantities>>{});
+        of.near_.forward(store, fields<simulation::integrator_type::template solved<quantities>>{});
         double changes[2] = {0, 0};  // of velocities, and how great these are
         for (auto& one : contacts) {
             double separation = 0;

@@ -33,17 +33,17 @@ inline constexpr double sphere_inertia = 0.4;
 //     [x0 y0] [z0 x1] [y1 z1]           particle c / D, axis c % D
 
 /// Moves the owned particles of a scene.
-template <class Scene>
+template <class Simulation>
 class motion {
-    static constexpr auto D = Scene::dimension;
-    static constexpr auto spins = Scene::quantities_type::spins;
-    using real = typename Scene::real;
-    using coordinate = typename Scene::coordinate;
+    static constexpr auto D = Simulation::dimension;
+    static constexpr auto spins = Simulation::quantities_type::spins;
+    using real = typename Simulation::real;
+    using coordinate = typename Simulation::coordinate;
     using V = lanes<real>;
     static constexpr std::size_t width = V::count;
 
 public:
-    motion(const columns<Scene>& of, std::size_t owned, const vec<D, double>& gravity) noexcept
+    motion(const columns<Simulation>& of, std::size_t owned, const vec<D, double>& gravity) noexcept
         : of_(of), owned_(owned), gravity_(gravity) {}
 
     /// v += duration a. [s]
@@ -77,7 +77,7 @@ public:
         vec<D, real> a;
         for (std::size_t k = 0; k < D; ++k) {
             a[k] = static_cast<real>(by.linear) * of_.f[i][k];
-            if constexpr (Scene::has_gravity) a[k] += static_cast<real>(by.gravity[k]);
+            if constexpr (Simulation::has_gravity) a[k] += static_cast<real>(by.gravity[k]);
         }
         return a;
     }
@@ -91,13 +91,13 @@ private:
         vec<D, double> gravity;
     };
     [[nodiscard, gnu::always_inline]] kick_factors factors(std::size_t i, double duration) const noexcept {
-        const double m = Scene::bodies_type::are_equal ? static_cast<double>(of_.mass_of_all) : of_.mass[i];
+        const double m = Simulation::bodies_type::are_equal ? static_cast<double>(of_.mass_of_all) : of_.mass[i];
         kick_factors by{duration / m, 0, {}};
-        if constexpr (Scene::turns) {
-            const double r = Scene::bodies_type::are_equal ? static_cast<double>(of_.radius_of_all) : of_.radius[i];
+        if constexpr (Simulation::turns) {
+            const double r = Simulation::bodies_type::are_equal ? static_cast<double>(of_.radius_of_all) : of_.radius[i];
             by.angular = duration / (sphere_inertia * m * r * r);
         }
-        if constexpr (Scene::has_gravity)
+        if constexpr (Simulation::has_gravity)
             if (m <= (std::numeric_limits<double>::max)())  // what is held fast does not fall
                 for (std::size_t k = 0; k < D; ++k) by.gravity[k] = duration * gravity_[k];
         return by;
@@ -118,7 +118,7 @@ private:
         return fastest.most + fastest.poison;
     }
     [[nodiscard]] kick_factors factors_of_all(double duration) const noexcept {
-        if constexpr (Scene::bodies_type::are_equal)
+        if constexpr (Simulation::bodies_type::are_equal)
             return factors(0, duration);
         else
             return {};
@@ -142,7 +142,7 @@ private:
         vec<width, kick_factors> each;
         if constexpr (Kicks != 0)
             unrolled<width>([&](auto l) __attribute__((always_inline)) {
-                each[l] = Scene::bodies_type::are_equal ? of_all : factors(i + l, kicked);
+                each[l] = Simulation::bodies_type::are_equal ? of_all : factors(i + l, kicked);
             });
         unrolled<D>([&](auto r) __attribute__((always_inline)) {
             auto moving = V::load(v + r * width);
@@ -156,7 +156,7 @@ private:
                 });
                 unrolled<static_cast<std::size_t>(Kicks)>([&](auto) __attribute__((always_inline)) {
                     moving += linear * force;
-                    if constexpr (Scene::has_gravity) moving += gravity;
+                    if constexpr (Simulation::has_gravity) moving += gravity;
                 });
                 moving.store(v + r * width);
             }
@@ -178,7 +178,7 @@ private:
                     });
                 });
         }
-        if constexpr (Scene::turns) turn_group<Kicks, Clears>(i, each);
+        if constexpr (Simulation::turns) turn_group<Kicks, Clears>(i, each);
     }
     template <int Kicks, bool Clears>
     [[gnu::always_inline]] void turn_group(std::size_t i, const vec<width, kick_factors>& each) const noexcept {
@@ -207,7 +207,7 @@ private:
             auto& v = of_.v[i][k];
             for (int n = 0; n < Kicks; ++n) {
                 v += static_cast<real>(by.linear) * of_.f[i][k];
-                if constexpr (Scene::has_gravity) v += static_cast<real>(by.gravity[k]);
+                if constexpr (Simulation::has_gravity) v += static_cast<real>(by.gravity[k]);
             }
             square += v * v;
             if constexpr (Drifts && drifts_in_lanes) of_.x[i][k] += static_cast<real>(drifted) * v;
@@ -215,14 +215,14 @@ private:
             if constexpr (Clears) of_.f[i][k] = 0;
         }
         if constexpr (Drifts) fastest.see(square);
-        if constexpr (Scene::turns)
+        if constexpr (Simulation::turns)
             for (std::size_t k = 0; k < spins; ++k) {
                 for (int n = 0; n < Kicks; ++n) of_.w[i][k] += static_cast<real>(by.angular) * of_.t[i][k];
                 if constexpr (Clears) of_.t[i][k] = 0;
             }
     }
     [[gnu::always_inline]] void move(std::size_t i, std::size_t k, double by) const noexcept {
-        if constexpr (Scene::quantities_type::has_offsets) {
+        if constexpr (Simulation::quantities_type::has_offsets) {
             using integer = decltype(of_.x[i][k].value);
             auto& offset = of_.offset[i][k];
             offset += static_cast<real>(by);
@@ -244,7 +244,7 @@ private:
 #endif
     }
 
-    const columns<Scene>& of_;
+    const columns<Simulation>& of_;
     std::size_t owned_;
     vec<D, double> gravity_;
 };

@@ -12,7 +12,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/dem/detail/columns.hpp>
-#include <tsubu/dem/detail/contact_memory.hpp>
+#include <tsubu/dem/detail/contact_history.hpp>
 #include <tsubu/dem/options.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/id/id_map.hpp>
@@ -41,13 +41,13 @@ struct placed_spring {
 };
 
 /// Finds who is near whom, and keeps that up to date.
-template <class Scene, class Transport>
+template <class Simulation, class Transport>
 class neighborhood {
-    static constexpr auto D = Scene::dimension;
-    using store_type = typename Scene::store_type;
-    using parts_type = typename Scene::decomposition_type;
-    using box_type = typename Scene::box_type;
-    using bodies_type = typename Scene::bodies_type;
+    static constexpr auto D = Simulation::dimension;
+    using store_type = typename Simulation::store_type;
+    using parts_type = typename Simulation::decomposition_type;
+    using box_type = typename Simulation::box_type;
+    using bodies_type = typename Simulation::bodies_type;
 
 public:
     neighborhood(const box_type& box, const options& how, Transport& on, const bodies_type& bodies,
@@ -65,11 +65,11 @@ public:
     [[nodiscard]] std::span<const index_pair> near_walls() const noexcept { return {near_walls_.data(), near_walls_.size()}; }
     [[nodiscard]] std::span<const wall_plane<D>> walls() const noexcept { return {walls_.data(), walls_.size()}; }
     [[nodiscard]] std::span<const placed_spring> springs() const noexcept { return {springs_.data(), springs_.size()}; }
-    [[nodiscard]] contact_memory<Scene>& memory() noexcept { return memory_; }
+    [[nodiscard]] contact_history<Simulation>& history() noexcept { return history_; }
     [[nodiscard]] std::uint64_t renewals() const noexcept { return renewals_; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept {
         return pairs_.memory_bytes() + near_walls_.capacity() * sizeof(index_pair) +
-               springs_.capacity() * sizeof(placed_spring) + memory_.memory_bytes();
+               springs_.capacity() * sizeof(placed_spring) + history_.memory_bytes();
     }
 
     /// No particle goes farther than this until the next call [m].
@@ -78,15 +78,15 @@ public:
     /// Collective, and finish after it if they were not.
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
-            keep_memory(store);
-            renew(store, typename Scene::migration_fields{});
+            keep_history(store);
+            renew(store, typename Simulation::migration_fields{});
             return true;
         }
-        start_forward(store, typename Scene::forward_fields{});
+        start_forward(store, typename Simulation::forward_fields{});
         return false;
     }
     /// The values of ghosts are there when this returns. Collective.
-    void finish(store_type& store) { finish_forward(store, typename Scene::forward_fields{}); }
+    void finish(store_type& store) { finish_forward(store, typename Simulation::forward_fields{}); }
     /// Of pairs(), how many, the first ones, have no ghost.
     [[nodiscard]] std::size_t inner_pairs() const noexcept { return pairs_.inner_count(); }
     /// Between two looks: whether lists have been used too long. Collective.
@@ -94,7 +94,7 @@ public:
         if (how_.check_every > 1) watch_.check(*on_);
     }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
-    void keep_memory(store_type& store) { memory_.keep(store, pairs(), near_walls()); }
+    void keep_history(store_type& store) { history_.keep(store, pairs(), near_walls()); }
     /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.
     template <class Carried>
     void renew(store_type& store, Carried carried) {
@@ -103,16 +103,16 @@ public:
         springs_.clear();
         migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
-            store.permute(order_along(hilbert_curve{}, box(), store.owned()[Scene::quantities_type::position]));
+            store.permute(order_along(hilbert_curve{}, box(), store.owned()[Simulation::quantities_type::position]));
         halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
         agreement<> all(on_->rank());
         all.attempt([&] {
-            if constexpr (Scene::has_contacts) {
+            if constexpr (Simulation::has_contacts) {
                 find_pairs(store);
-                if constexpr (Scene::has_walls) find_walls(store);
-                memory_.recall(store, pairs(), near_walls());
+                if constexpr (Simulation::has_walls) find_walls(store);
+                history_.recall(store, pairs(), near_walls());
             }
-            if constexpr (Scene::has_springs) find_springs(store);
+            if constexpr (Simulation::has_springs) find_springs(store);
         });
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run", "particles are on their ranks, and have no neighbours");
@@ -137,7 +137,7 @@ private:
     /// How far ghosts are needed [m]: as far as particles touch, and the skin. Collective.
     [[nodiscard]] double cutoff(const store_type& store) {
         double touching = 0;
-        if constexpr (Scene::has_contacts) {
+        if constexpr (Simulation::has_contacts) {
             if constexpr (bodies_type::are_equal) {
                 touching = 2 * bodies_.radius;
             } else {
@@ -146,7 +146,7 @@ private:
             }
         }
         const double needed = touching + how_.skin;
-        if constexpr (Scene::remembers || is_lattice<typename Scene::coordinate>)
+        if constexpr (Simulation::has_history || is_lattice<typename Simulation::coordinate>)
             for (std::size_t k = 0; k < D; ++k)
                 if (const auto& along = box().real_axis(k); along.is_periodic() && !(along.length() > 2 * needed))
                     tsubu::detail::raise<input_error>(
@@ -167,7 +167,7 @@ private:
     /// By how much a particle may be nearer than the middle of its cell, twice [m].
     [[nodiscard]] double widest_cell() const noexcept {
         double width = 0;
-        if constexpr (Scene::quantities_type::has_offsets)
+        if constexpr (Simulation::quantities_type::has_offsets)
             for (std::size_t k = 0; k < D; ++k) width = (std::max)(width, box().along(k).length_of(1.0));
         return width * static_cast<double>(D);
     }
@@ -178,9 +178,9 @@ private:
             else
                 pairs_.build(x, store.owned_count(), radii_reach<>{store[tsubu::radius].span(), how_.skin});
         };
-        if constexpr (is_lattice<typename Scene::coordinate>) {
+        if constexpr (is_lattice<typename Simulation::coordinate>) {
             // On the lattice a ghost lies where its owner does: real positions tell them apart.
-            const columns<Scene> of(store, box(), bodies_);
+            const columns<Simulation> of(store, box(), bodies_);
             std::vector<vec<D, double>> x(store.size());
             for (std::size_t i = 0; i < store.size(); ++i) {
                 x[i] = of.real_position(static_cast<index_t>(i));
@@ -190,11 +190,11 @@ private:
             }
             build(x);
         } else {
-            build(store[Scene::quantities_type::position]);
+            build(store[Simulation::quantities_type::position]);
         }
     }
     void find_walls(store_type& store) {
-        const columns<Scene> of(store, box(), bodies_);
+        const columns<Simulation> of(store, box(), bodies_);
         for (std::size_t i = 0; i < store.owned_count(); ++i) {
             const auto at = static_cast<index_t>(i);
             for (std::size_t w = 0; w < walls_.size(); ++w)
@@ -205,7 +205,7 @@ private:
     void find_springs(store_type& store) {
         same_id_links same;
         where_.rebuild(store[tsubu::id].span(), same);
-        const columns<Scene> of(store, box(), bodies_);
+        const columns<Simulation> of(store, box(), bodies_);
         const auto found = topology<tsubu::bonds, newton_off>::resolve(store, where_, same, [&](index_t i, index_t j) {
             double square = 0;
             for (std::size_t k = 0; k < D; ++k) {
@@ -247,7 +247,7 @@ private:
     pair_list pairs_;
     std::vector<index_pair> near_walls_;
     std::vector<placed_spring> springs_;
-    contact_memory<Scene> memory_;
+    contact_history<Simulation> history_;
     id_map<> where_;
     std::uint64_t renewals_ = 0;
 };

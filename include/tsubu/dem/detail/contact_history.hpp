@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What contacts remember, from one neighbour list to the next: by the ids of the partners.
+/// What contacts remember: their history, from one neighbour list to the next: by the ids of the partners.
 #pragma once
 
 #include <tsubu/core/buffer.hpp>
@@ -22,52 +22,52 @@
 
 namespace tsubu::dem::detail {
 
-// While a list of neighbours holds, springs lie beside it, a row for each pair. Before particles move to other places or
-// ranks, each particle takes the springs of its contacts with it, with the ids of the partners; afterwards the ids are
-// looked up, and the springs laid beside the new list:
+// While a list of neighbours holds, histories lie beside it, a row for each pair. Before particles move to other places or
+// ranks, each particle takes the histories of its contacts with it, with the ids of the partners; afterwards the ids are
+// looked up, and the histories laid beside the new list:
 //
-//     pairs    (0, 4) (0, 7) (2, 4) ...        particle 0: [id of 4 | spring] [id of 7 | spring]
-//     springs    *      .      *               particle 4: [id of 0 | -spring] [id of 2 | -spring]
+//     pairs    (0, 4) (0, 7) (2, 4) ...        particle 0: [id of 4 | history] [id of 7 | history]
+//     history    *      .      *               particle 4: [id of 0 | -history] [id of 2 | -history]
 //
 // Both particles of a contact keep it, each from its side, since either may go to another rank.
 
-/// The springs of the pairs of one list, and whether each pair touched.
-template <std::size_t Springs, class Real>
-struct spring_table {
+/// The histories of the pairs of one list, and whether each pair touched.
+template <std::size_t Size, class Real>
+struct history_table {
     buffer<touch_state> touches;        // [pairs]
-    buffer<vec<Springs, Real>> springs;  // [pairs]; of a pair that did not touch without meaning
+    buffer<vec<Size, Real>> history;  // [pairs]; of a pair that did not touch without meaning
 
-    explicit spring_table(std::size_t pairs = 0) : touches(pairs, {}), springs(pairs, {}) {
+    explicit history_table(std::size_t pairs = 0) : touches(pairs, {}), history(pairs, {}) {
         std::fill(touches.begin(), touches.end(), touch_state{0});
     }
-    [[nodiscard]] std::size_t memory_bytes() const noexcept { return touches.memory_bytes() + springs.memory_bytes(); }
+    [[nodiscard]] std::size_t memory_bytes() const noexcept { return touches.memory_bytes() + history.memory_bytes(); }
 };
 
 /// Of a law that remembers nothing: nothing.
-template <class Scene, bool Remembers = Scene::remembers>
-class contact_memory {
+template <class Simulation, bool HasHistory = Simulation::has_history>
+class contact_history {
 public:
-    void keep(typename Scene::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
-    void recall(typename Scene::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
+    void keep(typename Simulation::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
+    void recall(typename Simulation::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
     void begin(std::size_t, std::size_t) {}
     [[nodiscard]] touch_state* pair_touches() noexcept { return nullptr; }
     [[nodiscard]] touch_state* wall_touches() noexcept { return nullptr; }
-    [[nodiscard]] vec<0, typename Scene::real>* pair_springs() noexcept { return nullptr; }
-    [[nodiscard]] vec<0, typename Scene::real>* wall_springs() noexcept { return nullptr; }
+    [[nodiscard]] vec<0, typename Simulation::real>* pair_history() noexcept { return nullptr; }
+    [[nodiscard]] vec<0, typename Simulation::real>* wall_history() noexcept { return nullptr; }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return 0; }
 };
-template <class Scene>
-class contact_memory<Scene, true> {
-    using real = typename Scene::real;
-    static constexpr auto springs = Scene::springs;
-    static constexpr auto contacts = Scene::quantities_type::template contacts<springs>;
-    using store_type = typename Scene::store_type;
+template <class Simulation>
+class contact_history<Simulation, true> {
+    using real = typename Simulation::real;
+    static constexpr auto history_size = Simulation::history_size;
+    static constexpr auto contacts = Simulation::quantities_type::template contacts<history_size>;
+    using store_type = typename Simulation::store_type;
 
 public:
     [[nodiscard]] touch_state* pair_touches() noexcept { return pairs_.touches.data(); }
     [[nodiscard]] touch_state* wall_touches() noexcept { return walls_.touches.data(); }
-    [[nodiscard]] vec<springs, real>* pair_springs() noexcept { return pairs_.springs.data(); }
-    [[nodiscard]] vec<springs, real>* wall_springs() noexcept { return walls_.springs.data(); }
+    [[nodiscard]] vec<history_size, real>* pair_history() noexcept { return pairs_.history.data(); }
+    [[nodiscard]] vec<history_size, real>* wall_history() noexcept { return walls_.history.data(); }
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return pairs_.memory_bytes() + walls_.memory_bytes(); }
 
     /// Each owned particle takes what its contacts remember. Replaces what it held.
@@ -78,21 +78,21 @@ public:
         for (std::size_t p = 0; p < pairs.size(); ++p) {
             if ((pairs_.touches[p] & 1U) == 0) continue;
             const auto [i, j] = pairs[p];
-            held[i].push_back({ids[j], pairs_.springs[p]});
+            held[i].push_back({ids[j], pairs_.history[p]});
             if (static_cast<std::size_t>(j) >= store.owned_count()) continue;
-            auto opposite = pairs_.springs[p];
+            auto opposite = pairs_.history[p];
             for (auto& one : opposite) one = -one;
             held[j].push_back({ids[i], opposite});
         }
         for (std::size_t p = 0; p < at_walls.size(); ++p)
             if ((walls_.touches[p] & 1U) != 0)
-                held[at_walls[p].i].push_back({id_of_wall(at_walls[p].j), walls_.springs[p]});
+                held[at_walls[p].i].push_back({id_of_wall(at_walls[p].j), walls_.history[p]});
     }
-    /// Lays the springs beside new lists, and takes them from the particles. @throws input_error if a partner is not
+    /// Lays the histories beside new lists, and takes them from the particles. @throws input_error if a partner is not
     /// here.
     void recall(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls) {
-        pairs_ = spring_table<springs, real>(pairs.size());
-        walls_ = spring_table<springs, real>(at_walls.size());
+        pairs_ = history_table<history_size, real>(pairs.size());
+        walls_ = history_table<history_size, real>(at_walls.size());
         const auto held = store[contacts];
         std::vector<std::int64_t> partners;
         for (std::size_t i = 0; i < store.owned_count(); ++i)
@@ -119,7 +119,7 @@ public:
                         if (j != partner && (static_cast<std::size_t>(j) < store.owned_count() || ids[j] != one.partner))
                             continue;
                         pairs_.touches[p] = 1;
-                        pairs_.springs[p] = one.springs;
+                        pairs_.history[p] = one.history;
                     }
             }
             held[i].clear();
@@ -155,7 +155,7 @@ private:
             if (id_of_wall(p->j) == one.partner) {
                 const auto k = static_cast<std::size_t>(p - at_walls.begin());
                 walls_.touches[k] = 1;
-                walls_.springs[k] = one.springs;
+                walls_.history[k] = one.history;
             }
     }
     [[noreturn]] static void lose(std::int64_t id, std::int64_t partner) {
@@ -165,8 +165,8 @@ private:
                                           "insert both of them, or clear what contacts remember");
     }
 
-    spring_table<springs, real> pairs_;
-    spring_table<springs, real> walls_;
+    history_table<history_size, real> pairs_;
+    history_table<history_size, real> walls_;
     id_map<> where_;
 };
 

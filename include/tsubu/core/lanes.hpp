@@ -15,7 +15,7 @@
 #include <emmintrin.h>  // _mm_movemask_pd, _mm_movemask_ps, _mm_sqrt_pd, _mm_sqrt_ps
 #endif
 #if defined(__AVX__)
-#include <immintrin.h>  // _mm256_sqrt_pd, _mm256_sqrt_ps
+#include <immintrin.h>  // _mm256_movemask_pd, _mm256_movemask_ps, _mm256_sqrt_pd, _mm256_sqrt_ps
 #endif
 
 namespace tsubu {
@@ -34,29 +34,42 @@ inline constexpr std::size_t lane_bytes = 16;
 ///     template <class Real>
 ///     Real hooke(Real overlap, Real stiffness) { return stiffness * overlap; }   // double, or lanes<double>
 ///
-/// @tparam Real  float or double.
-template <class Real>
+/// With contraction of products and sums (-ffp-contract=fast, where there are fused ones) the compiler may round either
+/// otherwise.
+///
+/// @tparam Real   float or double.
+/// @tparam Bytes  of a register: parts of a program built for different machines have different types.
+template <class Real, std::size_t Bytes = lane_bytes>
 struct lanes {
-    static constexpr std::size_t count = lane_bytes / sizeof(Real);
+    static constexpr std::size_t count = Bytes / sizeof(Real);
     using integer = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
-    typedef Real native __attribute__((vector_size(lane_bytes)));
-    typedef integer native_mask __attribute__((vector_size(lane_bytes)));
+    typedef Real native __attribute__((vector_size(Bytes)));
+    typedef integer native_mask __attribute__((vector_size(Bytes)));
 
     /// True or false of each lane, as a comparison answers.
     struct mask {
         native_mask value;
         /// Bit l is lane l.
         [[nodiscard, gnu::always_inline]] unsigned bits() const noexcept {
-#if defined(__SSE2__) && !defined(__AVX__)
-            if constexpr (sizeof(Real) == 8)
-                return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(value)));
+#if defined(__AVX__)
+            if constexpr (Bytes == 32 && sizeof(Real) == 8)
+                return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(value)));
+            else if constexpr (Bytes == 32)
+                return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(value)));
             else
-                return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(value)));
-#else
-            unsigned result = 0;
-            for (std::size_t l = 0; l < count; ++l) result |= (value[l] != 0 ? 1U : 0U) << l;
-            return result;
 #endif
+#if defined(__SSE2__)
+            if constexpr (Bytes == 16 && sizeof(Real) == 8)
+                return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(value)));
+            else if constexpr (Bytes == 16)
+                return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(value)));
+            else
+#endif
+            {
+                unsigned result = 0;
+                for (std::size_t l = 0; l < count; ++l) result |= (value[l] != 0 ? 1U : 0U) << l;
+                return result;
+            }
         }
         [[gnu::always_inline]] friend mask operator&(const mask& a, const mask& b) noexcept {
             return {a.value & b.value};
@@ -108,7 +121,6 @@ struct lanes {
     [[gnu::always_inline]] friend lanes operator-(const lanes& a) noexcept { return -a.value; }
     [[gnu::always_inline]] lanes& operator+=(const lanes& b) noexcept { return *this = *this + b; }
     [[gnu::always_inline]] lanes& operator-=(const lanes& b) noexcept { return *this = *this - b; }
-    [[gnu::always_inline]] lanes& operator*=(const lanes& b) noexcept { return *this = *this * b; }
 
     [[gnu::always_inline]] friend mask operator<(const lanes& a, const lanes& b) noexcept {
         return {a.value < b.value};
@@ -124,8 +136,8 @@ template <class Real>
 struct number_in {
     using type = Real;
 };
-template <class Real>
-struct number_in<lanes<Real>> {
+template <class Real, std::size_t Bytes>
+struct number_in<lanes<Real, Bytes>> {
     using type = Real;
 };
 
@@ -135,39 +147,42 @@ struct number_in<lanes<Real>> {
 template <class Real>
 using number_of = typename detail::number_in<Real>::type;
 
+/// Functions of lanes, and the same ones of one number: a formula that calls them can be written for either.
+namespace lanewise {
+
 /// chosen ? yes : no, of each lane.
-template <class Real>
-[[nodiscard, gnu::always_inline]] inline lanes<Real> select(const typename lanes<Real>::mask& chosen,
-                                                            const lanes<Real>& yes, const lanes<Real>& no) noexcept {
+template <class Real, std::size_t Bytes>
+[[nodiscard, gnu::always_inline]] inline lanes<Real, Bytes> select(const typename lanes<Real, Bytes>::mask& chosen,
+                                                                   const lanes<Real, Bytes>& yes,
+                                                                   const lanes<Real, Bytes>& no) noexcept {
     return chosen.value ? yes.value : no.value;
 }
-
-/// Correctly rounded, as std::sqrt.
-template <class Real>
-[[nodiscard, gnu::always_inline]] inline lanes<Real> sqrt(const lanes<Real>& a) noexcept {
-#if defined(__AVX__)
-    if constexpr (sizeof(Real) == 8)
-        return typename lanes<Real>::native(_mm256_sqrt_pd(a.value));
-    else
-        return typename lanes<Real>::native(_mm256_sqrt_ps(a.value));
-#elif defined(__SSE2__)
-    if constexpr (sizeof(Real) == 8)
-        return typename lanes<Real>::native(_mm_sqrt_pd(a.value));
-    else
-        return typename lanes<Real>::native(_mm_sqrt_ps(a.value));
-#else
-    lanes<Real> result = a;
-    for (std::size_t l = 0; l < lanes<Real>::count; ++l) result.set(l, std::sqrt(a[l]));
-    return result;
-#endif
-}
-
-/// The same of one number, so that a formula can be written for either.
 [[nodiscard, gnu::always_inline]] inline double select(bool chosen, double yes, double no) noexcept {
     return chosen ? yes : no;
 }
 [[nodiscard, gnu::always_inline]] inline float select(bool chosen, float yes, float no) noexcept {
     return chosen ? yes : no;
+}
+
+/// Correctly rounded, as std::sqrt.
+template <class Real, std::size_t Bytes>
+[[nodiscard, gnu::always_inline]] inline lanes<Real, Bytes> sqrt(const lanes<Real, Bytes>& a) noexcept {
+    using native = typename lanes<Real, Bytes>::native;
+#if defined(__AVX__)
+    if constexpr (Bytes == 32 && sizeof(Real) == 8)
+        return native(_mm256_sqrt_pd(a.value));
+    else if constexpr (Bytes == 32)
+        return native(_mm256_sqrt_ps(a.value));
+    else
+#endif
+#if defined(__SSE2__)
+    if constexpr (Bytes == 16 && sizeof(Real) == 8)
+        return native(_mm_sqrt_pd(a.value));
+    else if constexpr (Bytes == 16)
+        return native(_mm_sqrt_ps(a.value));
+    else
+#endif
+        return lanes<Real, Bytes>::of([&](auto l) { return static_cast<Real>(std::sqrt(a[l])); });
 }
 [[nodiscard, gnu::always_inline]] inline double sqrt(double a) noexcept { return std::sqrt(a); }
 [[nodiscard, gnu::always_inline]] inline float sqrt(float a) noexcept { return std::sqrt(a); }
@@ -186,4 +201,5 @@ template <class Real>
     return select(a < b, b, a);
 }
 
+}  // namespace lanewise
 }  // namespace tsubu

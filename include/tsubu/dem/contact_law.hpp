@@ -131,7 +131,7 @@ public:
         Real force = normal_.elastic(at.overlap, at.radius);
         if constexpr (Normal::is_damped && IsDamped)
             force = force - normal_.damping(at.overlap, at.mass, at.radius) * dot<D, Real>(at.velocity, at.normal);
-        if constexpr (release_type::never_pulls && IsDamped) force = greatest(force, Real(0));
+        if constexpr (release_type::never_pulls && IsDamped) force = lanewise::greatest(force, Real(0));
         return force;
     }
     /// What the contact does, and what it remembers then.

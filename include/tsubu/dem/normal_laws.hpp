@@ -105,11 +105,11 @@ struct hertz_normal {
     void check() const { detail::check_positive("effective modulus", modulus, "Pa"); }
     template <class Real>
     [[nodiscard, gnu::always_inline]] Real elastic(const Real& overlap, const Real& radius) const noexcept {
-        return overlap * sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus));
+        return overlap * lanewise::sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus));
     }
     template <class Real>
     [[nodiscard]] Real stiffness(const Real& overlap, const Real& radius) const noexcept {
-        return sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(2 * modulus));
+        return lanewise::sqrt(overlap * radius) * Real(static_cast<number_of<Real>>(2 * modulus));
     }
     template <class Real>
     [[nodiscard]] Real energy(const Real& overlap, const Real& radius) const noexcept {
@@ -153,7 +153,7 @@ struct hertz_dashpot_normal {
     template <class Real>
     [[nodiscard, gnu::always_inline]] Real damping(const Real& overlap, const Real& mass,
                                                    const Real& radius) const noexcept {
-        return Real(static_cast<number_of<Real>>(gamma)) * mass * sqrt(radius * overlap);
+        return Real(static_cast<number_of<Real>>(gamma)) * mass * lanewise::sqrt(radius * overlap);
     }
 };
 static_assert(normal_law<hertz_dashpot_normal>);
@@ -193,7 +193,7 @@ struct hertz_tsuji_normal {
                                                    const Real& radius) const noexcept {
         // sqrt(m* K) d^(1/4), K = 4/3 E* sqrt(R*)
         return Real(static_cast<number_of<Real>>(alpha)) *
-               sqrt(mass * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus)) * sqrt(radius * overlap));
+               lanewise::sqrt(mass * Real(static_cast<number_of<Real>>(4.0 / 3 * modulus)) * lanewise::sqrt(radius * overlap));
     }
 };
 static_assert(normal_law<hertz_tsuji_normal>);

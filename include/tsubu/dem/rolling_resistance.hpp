@@ -54,16 +54,16 @@ struct rolling_resistance {
         const Real k_r = Real(number(2.25)) * stiffness * arm * arm;
         // 7/5 m* R*^2 would be a sphere's inertia about the point of contact; of two, the effective one.
         const Real inertia = Real(number(1.4)) * at.mass * at.radius * at.radius;
-        const Real damping = Real(static_cast<number>(2 * eta_r)) * sqrt(inertia * k_r);
+        const Real damping = Real(static_cast<number>(2 * eta_r)) * lanewise::sqrt(inertia * k_r);
         spring = minus<spins, Real>(spring, scaled<spins, Real>(turning, k_r * at.time_step));
         if constexpr (D == 3) spring = tangential<3, Real>(spring, at.normal);
-        const Real strength = sqrt(dot<spins, Real>(spring, spring));
-        const Real most = arm * greatest(normal_force, -normal_force);
+        const Real strength = lanewise::sqrt(dot<spins, Real>(spring, spring));
+        const Real most = arm * lanewise::greatest(normal_force, -normal_force);
         const auto yields = strength > most;
-        const Real share = select(yields, most / strength, Real(number(1)));
+        const Real share = lanewise::select(yields, most / strength, Real(number(1)));
         spring = scaled<spins, Real>(spring, share);
         return vector_of<spins, Real>([&](auto k) __attribute__((always_inline)) {
-            return spring[k] - select(yields, Real(number(0)), damping * turning[k]);
+            return spring[k] - lanewise::select(yields, Real(number(0)), damping * turning[k]);
         });
     }
 };

@@ -60,10 +60,10 @@ struct coulomb {
         using number = number_of<Real>;
         const auto slip = slip_of<D, Real>(at);
         const Real square = dot<D, Real>(slip, slip);
-        const Real speed = sqrt(square);
+        const Real speed = lanewise::sqrt(square);
         const Real viscous = Real(static_cast<number>(gamma_t)) * at.mass;
-        const Real most = Real(static_cast<number>(mu)) * greatest(normal_force, -normal_force);
-        const Real per_speed = select(viscous * speed > most, most / speed, viscous);
+        const Real most = Real(static_cast<number>(mu)) * lanewise::greatest(normal_force, -normal_force);
+        const Real per_speed = lanewise::select(viscous * speed > most, most / speed, viscous);
         return scaled<D, Real>(slip, -per_speed);
     }
 };
@@ -84,15 +84,15 @@ template <std::size_t D, class Real>
         [&](auto k) __attribute__((always_inline)) { return -(stiffness * longer[k] + viscosity * slip[k]); });
     spring = longer;
     const Real square = dot<D, Real>(pull, pull);
-    const Real most = mu * greatest(normal_force, -normal_force);
+    const Real most = mu * lanewise::greatest(normal_force, -normal_force);
     const auto slides = square > most * most;
-    if (any(slides)) {  // few do where grains rest, and the root and the quotients are dear
+    if (lanewise::any(slides)) {  // few do where grains rest, and the root and the quotients are dear
         const Real one(static_cast<number_of<Real>>(1));
-        pull = scaled<D, Real>(pull, select(slides, most / sqrt(square), one));
+        pull = scaled<D, Real>(pull, lanewise::select(slides, most / lanewise::sqrt(square), one));
         // What the spring holds is the force that is left, less what the dashpot gives.
         const Real softness = one / stiffness;
         spring = vector_of<D, Real>([&](auto k) __attribute__((always_inline)) {
-            return select(slides, -((pull[k] + viscosity * slip[k]) * softness), longer[k]);
+            return lanewise::select(slides, -((pull[k] + viscosity * slip[k]) * softness), longer[k]);
         });
     }
     return pull;
@@ -163,7 +163,7 @@ struct mindlin_history {
                                                          const Real& normal_damping,
                                                          vec<D, Real>& spring) const noexcept {
         using number = number_of<Real>;
-        const Real stiffness = Real(static_cast<number>(8 * shear_modulus)) * sqrt(at.radius * at.overlap);
+        const Real stiffness = Real(static_cast<number>(8 * shear_modulus)) * lanewise::sqrt(at.radius * at.overlap);
         return detail::sliding_spring<D, Real>(at, normal_force, stiffness,
                                                Real(static_cast<number>(damping)) * normal_damping,
                                                Real(static_cast<number>(mu)), spring);

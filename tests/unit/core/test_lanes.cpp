@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE("what is done to lanes is done to each number", "[core][lanes
             V product = a;
             sum += b;
             difference -= b;
-            product *= b;
+            product = product * b;
             for (std::size_t l = 0; l < V::count; ++l) {
                 const TestType x = a[l];
                 const TestType y = b[l];
@@ -73,9 +73,9 @@ TEMPLATE_TEST_CASE("what is done to lanes is done to each number", "[core][lanes
                 CHECK(((a > b).bits() >> l & 1U) == (x > y ? 1U : 0U));
                 CHECK((((a < b) & (b > a)).bits() >> l & 1U) == (x < y ? 1U : 0U));
                 CHECK((((a < b) | (a > b)).bits() >> l & 1U) == (x < y || x > y ? 1U : 0U));
-                CHECK(same_number(select(a < b, a, b)[l], tsubu::select(x < y, x, y)));
-                CHECK(same_number(tsubu::greatest(a, b)[l], tsubu::greatest(x, y)));
-                if (!(x < 0)) CHECK(same_number(sqrt(a)[l], static_cast<TestType>(std::sqrt(x))));
+                CHECK(same_number(tsubu::lanewise::select(a < b, a, b)[l], tsubu::lanewise::select(x < y, x, y)));
+                CHECK(same_number(tsubu::lanewise::greatest(a, b)[l], tsubu::lanewise::greatest(x, y)));
+                if (!(x < 0)) CHECK(same_number(tsubu::lanewise::sqrt(a)[l], static_cast<TestType>(std::sqrt(x))));
             }
             CHECK((a < b).bits() >> V::count == 0U);
         }
@@ -94,6 +94,6 @@ TEST_CASE("not a number is neither less nor greater, and stays", "[core][lanes]"
     const tsubu::lanes<double> b = 1.0;
     CHECK((a < b).bits() == 0);
     CHECK((a > b).bits() == 0);
-    CHECK(std::isnan(sqrt(a)[0]));
+    CHECK(std::isnan(tsubu::lanewise::sqrt(a)[0]));
     CHECK(std::isnan((a + b)[1]));
 }

@@ -101,7 +101,7 @@ private:
         template <class Which>
         [[gnu::always_inline]] shape find_shape(Which which) const noexcept {
             const auto d = apart(which);
-            const V distance = sqrt(dot<D, V>(d, d));
+            const V distance = lanewise::sqrt(dot<D, V>(d, d));
             return {scaled<D, V>(d, V(1) / distance), radii(which) - distance};
         }
         template <class Which>

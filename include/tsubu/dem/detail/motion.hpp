@@ -129,7 +129,7 @@ private:
         Numbers most = Numbers(real(0));
         Numbers poison = Numbers(real(0));  // 0, or not a number: a maximum passes over what is none
         [[gnu::always_inline]] void see(const Numbers& square) noexcept {
-            most = select(most < square, square, most);
+            most = lanewise::select(most < square, square, most);
             poison = poison + (square - square);
         }
     };

@@ -54,6 +54,8 @@ struct coulomb {
         detail::check_not_negative("friction mu", mu, "");
         detail::check_not_negative("damping gamma_t", gamma_t, "1/s");
     }
+    /// [kg/s]
+    [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real&, vec<0, Real>&) const noexcept {
@@ -122,6 +124,8 @@ struct linear_history {
     }
     /// [N/m]
     [[nodiscard]] double stiffness(double, double) const noexcept { return k_t; }
+    /// [kg/s]
+    [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real&, vec<D, Real>& spring) const noexcept {
@@ -158,6 +162,8 @@ struct mindlin_history {
     [[nodiscard]] double stiffness(double overlap, double radius) const noexcept {
         return 8 * shear_modulus * std::sqrt(radius * overlap);
     }
+    /// [kg/s]
+    [[nodiscard]] double viscosity(double, double normal_damping) const noexcept { return damping * normal_damping; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real& normal_damping,

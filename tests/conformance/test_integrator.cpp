@@ -91,6 +91,19 @@ struct heaping : symplectic_euler {
         }
     }
 };
+struct restless : velocity_verlet {
+    template <class Run>
+    static void advance(Run& run, double h, std::size_t steps) {
+        run.kick(h / 2);
+        for (std::size_t n = 0; n < steps; ++n) {
+            run.drift(h);
+            run.clear_forces();
+            run.evaluate_forces();
+            run.kick(n + 1 < steps ? h : h / 2);
+            run.end_step();
+        }
+    }
+};
 struct hurried : velocity_verlet {
     template <class Run>
     static void advance(Run& run, double h, std::size_t steps) {
@@ -124,6 +137,7 @@ TEST_CASE("an integrator that breaks a law is caught", "[dem][conformance]") {
     only(judged<timid>(second), "law 4", "grows above");
     only(judged<dear>(second), "law 2", "force_evaluations");
     only(judged<endless>(second), "law 1", "end_step");
+    only(judged<restless>(second), "law 1", "no steps");
     only(judged<symplectic_euler>(second), "claim", "order");
     CHECK(judged<heaping>({.order = 1, .damped_order = 1}).broken.count("law 1") == 1);
     CHECK(judged<hurried>(second).broken.count("law 1") == 1);

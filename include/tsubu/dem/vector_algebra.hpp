@@ -13,6 +13,10 @@
 
 namespace tsubu::dem {
 
+/// Numbers of a spin or a torque: in two dimensions one, about z; in one dimension none.
+template <std::size_t D>
+inline constexpr std::size_t spin_count = D == 3 ? 3 : D == 2 ? 1 : 0;
+
 /// The vector whose component k is make(k), k a constant.
 template <std::size_t D, class Real, class Make>
 [[nodiscard, gnu::always_inline]] inline vec<D, Real> vector_of(Make&& make) {

@@ -8,7 +8,7 @@
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/shown.hpp>
-#include <tsubu/dem/contact.hpp>
+#include <tsubu/dem/laws/concepts.hpp>
 
 #include <bit>          // std::bit_cast
 #include <cmath>        // std::abs

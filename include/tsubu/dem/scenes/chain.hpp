@@ -4,9 +4,9 @@
 #pragma once
 
 #include <tsubu/core/vec.hpp>
-#include <tsubu/dem/bodies.hpp>
 #include <tsubu/dem/references.hpp>
 #include <tsubu/dem/simulation.hpp>
+#include <tsubu/dem/spheres.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>

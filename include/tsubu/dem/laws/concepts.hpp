@@ -126,7 +126,8 @@ concept normal_law = std::semiregular<Law> && detail::normal_law_of<Law, double>
 ///  3. without history it does not drive the slip, and without slip there is none;
 ///  4. history [history_size<D>] is 0 when a contact begins, and changes with the way alone: asked again after no time,
 ///     the law answers the same;
-///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite;
+///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite, exactly:
+///     across a border between ranks each computes its own side;
 ///  6. lanes of numbers have the same results as the numbers, bit for bit.
 /// goes_with<Normal>: whether that normal law has its stiffness.
 template <class Law>
@@ -155,23 +156,25 @@ concept damping_sharing_law = tangential_law<Law> && requires(const Law& law) {
 ///     not rolling;
 ///  4. history [history_size<D>] is 0 when a contact begins, and changes with the angle alone: asked again after no
 ///     time, the law leaves it as it is;
-///  5. seen from j, with normal, turning and history the other way round, torque and history are the opposite;
+///  5. seen from j, with normal, turning and history the other way round, torque and history are the opposite, exactly;
 ///  6. lanes of numbers have the same results as the numbers, bit for bit.
 template <class Law>
 concept rolling_law = detail::plays<Law, contact_role::rolling> && detail::has_history_size<Law> &&
                       requires { { Law::resists } -> std::convertible_to<bool>; } &&
                       (!Law::resists || detail::gives_torques<Law>);
 
-/// What pulls bodies together while they touch, of a law that does (`pulls`): pull(R*) [N], not negative, and in lanes
-/// as in numbers. Friction does not feel it: its limit is mu times the force of the normal law alone, so that a contact
-/// in equilibrium with its pull still holds sideways.
-/// goes_with<Normal>: whether it belongs to such a contact.
+/// What pulls bodies together while they touch, of a law that does (`pulls`).
+///  1. pull(R*) [N] is not negative;
+///  2. lanes of numbers have the same results as the numbers, bit for bit.
+/// Friction does not feel it: its limit is mu times the force of the normal law alone, so that a contact in equilibrium
+/// with its pull still holds sideways. goes_with<Normal>: whether it belongs to such a contact.
 template <class Law>
 concept cohesion_law = detail::plays<Law, contact_role::cohesion> && detail::chooses_normals<Law> &&
                        requires { { Law::pulls } -> std::convertible_to<bool>; } &&
                        (!Law::pulls || detail::pulls_bodies<Law>);
 
-/// When a damped contact ends: `never_pulls` cuts the force off where it would begin to pull.
+/// When a damped contact ends.
+///  1. never_pulls: the force of the normal law is cut off where it would begin to pull; if not, it is left as it is.
 template <class Law>
 concept release_law = detail::plays<Law, contact_role::release> &&
                       requires { { Law::never_pulls } -> std::convertible_to<bool>; };

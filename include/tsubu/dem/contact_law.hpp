@@ -162,7 +162,6 @@ public:
         tangential_.check();
         rolling_.check();
         cohesion_.check();
-        release_type{}.check();
         if constexpr (!Normal::is_damped && damping_sharing_law<tangential_type>)
             if (tangential_.damping != 0)
                 tsubu::detail::raise<input_error>("dem::contact_law",

@@ -3,8 +3,6 @@
 /// Sums and products of vectors in 1, 2 and 3 dimensions, of numbers or of lanes.
 #pragma once
 
-#include <tsubu/core/lanes.hpp>
-#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
 
 #include <cstddef>      // std::size_t

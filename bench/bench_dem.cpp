@@ -18,7 +18,7 @@
 ///                                            rung without the last model
 ///     dem/hand/TASK/WHO/double               loops by hand beside the library's
 ///     dem/beside/SCENE/tsubu | lammps/double the same scene, on the same core, in turns
-///     dem/ranks/settle/RANKS/double          ns per particle-step on 1 and 2 ranks
+///     dem/ranks/SCENE/RANKS/double           ns per particle-step on 1 and 2 ranks
 ///     dem/missing/WHAT/WHY/-                 what could not be measured
 
 #include "dem/plan.hpp"

@@ -23,6 +23,9 @@
 #ifndef TSUBU_BENCH_SCENE
 #define TSUBU_BENCH_SCENE ""
 #endif
+#ifndef TSUBU_BENCH_TILED_BED
+#define TSUBU_BENCH_TILED_BED ""
+#endif
 
 namespace bench {
 namespace {
@@ -142,17 +145,18 @@ std::vector<rival_scene> rival_scenes() {
     return all;
 }
 
-/// bench_scene says how long its steps took; bench/run says how ranks are started.
+/// Other programs say how long their steps took; bench/run says how ranks are started.
 void ranks(row_reporter& report, const std::string& launcher, std::size_t rounds) {
-    constexpr std::size_t steps = 800;
+    static_cast<void>(settled_bed());  // so that its file is there
     std::vector<timed_contender> all;
-    for (const char* const count : {"1", "2"})
-        all.push_back({"dem/ranks/settle_1e5/" + std::string(count) + "/double", 1e5 * steps, [=](row_fields&) {
-                           return number_in(answer_of(launcher + " -n " + count + " " TSUBU_BENCH_SCENE
-                                                                 " settle --size 100000 --steps " +
-                                                      std::to_string(steps) + " --timing"),
-                                            "seconds");
-                       }});
+    const auto add = [&](const char* scene, double steps, const std::string& program) {
+        for (const char* const count : {"1", "2"})
+            all.push_back({std::string("dem/ranks/") + scene + "/" + count + "/double", 1e5 * steps, [=](row_fields&) {
+                               return number_in(answer_of(launcher + " -n " + count + " " + program), "seconds");
+                           }});
+    };
+    add("settle_1e5", 800, TSUBU_BENCH_SCENE " settle --size 100000 --steps 800 --timing");
+    add("bed_1e5", 200, TSUBU_BENCH_TILED_BED " " + bed_file() + " 200");
     take_turns(report, all, rounds, false);
 }
 
@@ -169,7 +173,7 @@ void add_rivals(std::vector<group>& groups, extent how_much) {
     const char* const launcher = std::getenv("TSUBU_BENCH_LAUNCHER");
     if (launcher != nullptr && *launcher != '\0')
         groups.push_back(
-            {"dem/ranks", 6 * static_cast<double>(rounds),
+            {"dem/ranks", 14 * static_cast<double>(rounds),
              [text = std::string(launcher), rounds](row_reporter& report) { ranks(report, text, rounds); }});
     groups.push_back({"dem/missing", 0.01, [=](row_reporter& report) {
                           if (!has_lammps)

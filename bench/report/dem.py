@@ -48,6 +48,7 @@ SCENES = {  # name: label, promise over LAMMPS, the rung of the same law in the 
 OTHER_ORDER = ("bed_hertz_mindlin",)
 OURS, THEIRS = "#2a8fd0", "#d1603d"
 BYTES_PROMISE, RANKS_PROMISE, HAND_PROMISE, ORDER_PROMISE, SAME_PROMISE = 2, 1.8, 1.05, .15, 6
+RANK_SCENES = {"settle_1e5": "falling", "bed_1e5": "at rest"}
 
 TITLE = "scenes"
 INTRODUCTION = (
@@ -164,9 +165,9 @@ def all_claims(results):
         difference = results.field("difference", "same", scene, "kinetic", "double")
         if difference is not None and scene not in OTHER_ORDER:
             same.add(min(16, -math.log10(max(difference, 1e-16))), label)
-    ranks = Claim("1 rank / 2 ranks, time of a step, settle, 1e5", RANKS_PROMISE)
-    ranks.add(quotient(results.time("ranks", "settle_1e5", "1", "double"),
-                       results.time("ranks", "settle_1e5", "2", "double")), "falling")
+    ranks = Claim("1 rank / 2 ranks, time of a step, 1e5", RANKS_PROMISE)
+    for scene, state in RANK_SCENES.items():
+        ranks.add(quotient(*(results.time("ranks", scene, n, "double") for n in "12")), state)
     by_hand = Claim("tsubu / loops by hand, frictionless", HAND_PROMISE, at_least=False)
     for task in ("forces", "motion"):
         by_hand.add(results.over_hand(task), task)
@@ -778,6 +779,16 @@ def links(results):
     return found
 
 
+def rank_sentences(results):
+    sentences = []
+    for scene, state in RANK_SCENES.items():
+        one, two = (results.time("ranks", scene, n, "double") for n in "12")
+        if one and two:
+            sentences.append(f"100000 spheres, {state}: {figure_of(one)} ns per particle-step on one rank, "
+                             f"{figure_of(two)} on two, {figure_of(quotient(one, two))} times as fast.")
+    return " ".join(sentences)
+
+
 def sections(results, pyplot):
     parts = []
     text = lambda words: f"<p>{html.escape(words)}</p>" if words else ""
@@ -844,11 +855,8 @@ def sections(results, pyplot):
     if results.scenes():
         parts.append("<h3>Beside LAMMPS</h3>" + text(beside_sentence(results)) + text(BESIDE_TEXT) +
                      figure_element(beside_chart(results, pyplot), pyplot, "LAMMPS") + beside_table(results))
-    one, two = (results.time("ranks", "settle_1e5", n, "double") for n in "12")
-    if one and two:
-        parts.append("<h3>Ranks</h3>" + text(
-            f"100000 spheres that fall: {figure_of(one)} ns per particle-step on one rank, {figure_of(two)} on two, "
-            f"{figure_of(quotient(one, two))} times as fast."))
+    if results.has("ranks"):
+        parts.append("<h3>Ranks</h3>" + text(rank_sentences(results)))
     missing = [key[1:3] for key in results.rows if key[0] == "missing"]
     if missing:
         parts.append(text("Not measured: " + listed([f"{what} ({why})" for what, why in missing]) + "."))

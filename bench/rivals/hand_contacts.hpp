@@ -26,18 +26,24 @@ struct hand_bed {
     double gamma = 0;
 
     /// The end of a step and the beginning of the next; forces are cleared.
-    void kick_and_drift(double kicked, double drifted) noexcept {
+    /// @return the square of the greatest speed: whoever keeps a list of neighbours has to know how long it holds
+    [[nodiscard]] double kick_and_drift(double kicked, double drifted) noexcept {
         auto* const at = x.data();
         auto* const speed = v.data();
         auto* const force = f.data();
         const auto count = x.size();
+        double fastest = 0;
         for (std::size_t i = 0; i < count; ++i) {
+            double square = 0;
             for (std::size_t a = 0; a < 3; ++a) {
                 speed[i][a] += kicked * force[i][a];
                 at[i][a] += drifted * speed[i][a];
+                square += speed[i][a] * speed[i][a];
             }
+            fastest = fastest < square ? square : fastest;
             force[i] = {};
         }
+        return fastest;
     }
     /// One pair after the other, with a branch.
     void forces_plain() noexcept {
@@ -113,7 +119,7 @@ private:
             uy.set(l, vs[i][1] - vs[j][1]);
             uz.set(l, vs[i][2] - vs[j][2]);
         }
-        const Lanes r = tsubu::sqrt(dx * dx + dy * dy + dz * dz);
+        const Lanes r = tsubu::lanewise::sqrt(dx * dx + dy * dy + dz * dz);
         const Lanes inverse = Lanes(1.0) / r;
         const Lanes nx = dx * inverse;
         const Lanes ny = dy * inverse;

@@ -35,6 +35,7 @@ struct half_a_friction {
 #endif
     double mu;
     void check() const {}
+    double viscosity(double, double) const { return 0; }
 #if CASE == 23
     template <std::size_t D, class>
     tsubu::vec<D> force(const contact<D, double>&, double, double, tsubu::vec<0>&) const {

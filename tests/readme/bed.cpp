@@ -13,11 +13,10 @@ static_assert(!scene::store_type::has<decltype(tsubu::radius)>);  // all are ali
 int main() {
     tsubu::self_transport on;  // or mpi_transport, where each rank adds particles of its own
     const scene::box_type box({0, 0, 0}, {6, 6, 12}, {.periodic = {true, true, false}});
-    dem::run<scene, tsubu::self_transport> bed(
-        box, {.time_step = 2e-3, .skin = 0.1}, on,
-        scene::contact_type{{.k = 1e4, .gamma = 60}, {.k_t = 1e4 * 2 / 7, .mu = 0.5}},
-        dem::walls{{{.point = {0, 0, 0}, .normal = {0, 0, 1}}}}, dem::gravity{{0, 0, -1}},
-        dem::equal_spheres{.radius = 0.5, .mass = 1});
+    auto bed = dem::make_run<scene>(box, {.time_step = 2e-3, .skin = 0.1}, on,
+                                    scene::contact_type{{.k = 1e4, .gamma = 60}, {.k_t = 1e4 * 2 / 7, .mu = 0.5}},
+                                    dem::walls{{{.point = {0, 0, 0}, .normal = {0, 0, 1}}}},
+                                    dem::gravity{{0, 0, -1}}, dem::equal_spheres{.radius = 0.5, .mass = 1});
 
     tsubu::random_stream random(7);
     for (int i = 0; i < 125; ++i)

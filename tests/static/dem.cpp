@@ -88,7 +88,7 @@ static_assert(is_set<settle::forward_fields, tsubu::position<3>, tsubu::velocity
 // Forces and torques are computed anew after a migration; a restart begins with them.
 static_assert(is_set<settle::migration_fields, tsubu::id, tsubu::position<3>, tsubu::velocity<3>,
                      tsubu::angular_velocity<3>, settle::quantities_type::contacts<3>>);
-static_assert(std::is_same_v<settle::restart_fields, settle::fields_type>);
+static_assert(std::is_same_v<settle::restart_fields, settle::fields>);
 static_assert(
     is_set<tsubu::difference_of<settle::restart_fields, settle::migration_fields>, tsubu::force<3>, tsubu::torque<3>>);
 static_assert(is_set<gas::migration_fields, tsubu::id, tsubu::position<3>, tsubu::velocity<3>>);

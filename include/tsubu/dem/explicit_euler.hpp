@@ -6,19 +6,24 @@
 #include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
+#include <cmath>    // std::sqrt
 #include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
 
 /// A drift with the old velocities, and a kick with the old forces.
 ///
-/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains energy, by
-/// (omega dt)^2 per step: for no time step it is stable.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains
+/// energy, by (omega dt)^2 per step: for no time step it is stable.
 /// Choose it to see that. Do not otherwise.
 struct explicit_euler {
     static constexpr unsigned force_evaluations = 1;
     static constexpr bool moves_spins = true;
     static constexpr bool solves_damping = false;
+    /// Not at all, without damping.
+    [[nodiscard]] static double stable_until(double z) noexcept {
+        return z < 1 ? 2 * z : 2 / (z + std::sqrt(z * z - 1));
+    }
     template <class Q>
     using keeps = fields<>;
 

@@ -11,10 +11,12 @@ namespace tsubu::dem {
 /// Cost: a pass over contacts or particles every so many steps.
 struct guards {
     unsigned every = 1000;    ///< steps between two looks, the first at the start; 0: there only
-    bool time_step = true;    ///< below 2 over greatest_frequency, whatever the damping
+    bool time_step = true;    ///< not above longest_time_step
     bool overlap = true;      ///< no two particles overlap by more than the smaller radius
     bool coordinates = true;  ///< if the fastest particle flies freely, v dt is above half a unit in the last place
-    double energy_floor = 0;  ///< [J] once the kinetic energy was below, it stays below 10 times that; 0: not watched
+    /// [J] Once the kinetic energy was below, it stays below 10 times that; 0: not watched. Velocities are those that the
+    /// integrator has at the end of a step: with velocity_verlet half a step old.
+    double energy_floor = 0;
 };
 
 /// Nothing is watched: to see what happens past a limit.

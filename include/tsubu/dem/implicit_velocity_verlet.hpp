@@ -24,6 +24,7 @@ struct implicit_velocity_verlet {
     static constexpr unsigned force_evaluations = 1;
     static constexpr bool moves_spins = false;
     static constexpr bool solves_damping = true;
+    [[nodiscard]] static double stable_until(double) noexcept { return 2; }
     /// Velocities at the end of the step, while they are solved for.
     template <class Q>
     static constexpr field<"solved_velocity", vec<Q::dimension, typename Q::real>, "m/s",

@@ -7,7 +7,7 @@
 /// | velocity_verlet          | 1               | 2             | 2 (sqrt(1 + z^2) - z)     | you do not know                    |
 /// | implicit_velocity_verlet | 1, and rounds   | 2             | 2 for all z               | damping is strong                  |
 /// | symplectic_euler         | 1               | 1             | 2 (sqrt(1 + z^2) - z)     | other codes are to be reproduced   |
-/// | pefrl                    | 4               | 4             | 2.98                      | the problem is smooth, without damping |
+/// | pefrl                    | 4               | 4             | 2.98; less with damping   | the problem is smooth, without damping |
 /// | runge_kutta_4            | 4               | 4             | 2.83; 2.6 for z <= 1      | the problem is smooth, with damping |
 /// | explicit_euler           | 1               | 1             | 0                         | to see why not                     |
 ///
@@ -17,7 +17,7 @@
 
 #include <tsubu/dem/quantities.hpp>
 
-#include <concepts>  // std::convertible_to
+#include <concepts>  // std::convertible_to, std::same_as
 
 namespace tsubu::dem {
 
@@ -27,12 +27,14 @@ namespace tsubu::dem {
 ///     after;
 ///  2. force_evaluations of a step; moves_spins: whether what turns particles is moved; solves_damping: whether the
 ///     damping of contacts is left to it;
-///  3. keeps<Q> are fields of its own, in the quantities Q of a scene.
+///  3. keeps<Q> are fields of its own, in the quantities Q of a scene;
+///  4. an oscillator of frequency omega and damping ratio z does not grow at steps h with omega h < stable_until(z).
 template <class Integrator>
-concept integrator = requires {
+concept integrator = requires(double damping_ratio) {
     { Integrator::force_evaluations } -> std::convertible_to<unsigned>;
     { Integrator::moves_spins } -> std::convertible_to<bool>;
     { Integrator::solves_damping } -> std::convertible_to<bool>;
+    { Integrator::stable_until(damping_ratio) } -> std::same_as<double>;
     typename Integrator::template keeps<quantities<3, double>>;
 };
 

@@ -44,7 +44,7 @@ class run;
 /// The models are given in the order of the scene's; equal_spheres last, where the scene does not name it. The transport
 /// must outlive the run.
 ///
-/// Collective: start, resume and steps, with the same box, options and models on all ranks.
+/// Collective: start, resume, change and steps, with the same box, options and models on all ranks.
 /// Threads:    one at a time.
 template <std::size_t D, number_policy Number, integrator Integrator, model... Models, transport Transport>
 class run<simulation<D, Number, Integrator, Models...>, Transport> {
@@ -66,7 +66,7 @@ public:
     run& operator=(const run&) = delete;
     ~run() = default;
 
-    /// The particles of this rank; ghosts follow the owned ones. After adding or removing some call start again.
+    /// The particles of this rank; ghosts follow the owned ones. Before start add them here, afterwards by change.
     [[nodiscard]] store_type& particles() noexcept { return store_; }
     [[nodiscard]] const store_type& particles() const noexcept { return store_; }
     [[nodiscard]] const box_type& box() const noexcept { return near_.box(); }
@@ -85,21 +85,44 @@ public:
     /// What particles, neighbours and memory of contacts take on this rank [bytes].
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return store_.memory_bytes() + near_.memory_bytes(); }
 
-    /// Particles go to their ranks, neighbours are found, and forces computed.
+    /// Particles go to their ranks, neighbours are found, and forces computed. Contacts begin without a history, but for
+    /// that which particles of a restart bring with them.
     /// @throws on all ranks or none: input_error if a particle is not what it may be, or a guard refuses.
-    void start() { begin(true); }
+    void start() { begin(true, partners::are_here); }
     /// As start, for particles of a restart: they have their forces.
-    void resume() { begin(false); }
+    void resume() { begin(false, partners::are_here); }
+    /// body(particles()) adds, removes or changes particles; then as start, but contacts keep their history where both of
+    /// their particles remain. Forces are computed anew: a dashpot sees velocities of the full step for once.
+    ///
+    ///     bed.change([](auto& grains) { if (!grains.empty()) grains.swap_remove(0); });
+    ///
+    /// Collective: yes; each rank changes particles of its own.
+    /// @throws on all ranks or none: as start; or what body throws. Particles are as body left them then.
+    template <class Body>
+    void change(Body&& body) {
+        if (is_started_) near_.keep_history(store_);
+        is_started_ = false;
+        agreement<> all(on_->rank());
+        all.attempt([&] {
+            store_.clear_ghosts();
+            body(store_);
+        });
+        on_->reduce(all.words(), reduction::sum);
+        all.settle("dem::run::change");
+        begin(true, partners::may_be_gone);
+    }
     /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left the
     /// box, or a guard refuses. Particles are somewhere within a step then: look at them, or go back to a restart.
     void steps(std::size_t count) {
         if (!is_started_) start();
+        check_count();
+        near_.drop_kept_history(store_);
         is_started_ = false;  // if this throws, lists and columns may be of another step than particles
         Integrator::advance(*this, how_.time_step, count);
         near_.check_uses();
         is_started_ = true;
     }
-    /// Particles take what their contacts remember into the field `contacts`: before they are written, or leave.
+    /// Particles take the history of their contacts into the field `contacts`: before they are written.
     void keep_history() { near_.keep_history(store_); }
 
     /// body(touching_pair<D>) for each contact of an owned particle; of those across a border each side has one.
@@ -132,7 +155,10 @@ public:
     /// v += duration a.
     void kick(double duration) noexcept { mover().kick(duration); }
     /// x += duration v.
-    void drift(double duration) noexcept { travel(mover().drift(duration), duration); }
+    void drift(double duration) noexcept {
+        travel(mover().drift(duration), duration);
+        forces_are_old_ = true;
+    }
     /// A kick, or two of them, and a drift, in one pass; forces are cleared.
     template <bool Twice>
     void kick_and_drift(double kicked, double drifted) noexcept {
@@ -147,7 +173,9 @@ public:
     [[nodiscard]] vec<D, real> acceleration(std::size_t i) const noexcept { return mover().acceleration(i); }
     /// The forces of all particles where they are, to be called after positions have changed; forces were cleared.
     void evaluate_forces() {
+        forces_are_old_ = false;
         const bool is_new = near_.follow(store_);
+        counted_ = store_.size();
         if (is_new) at_ = columns_type(store_, box(), bodies());
         find_forces(how_.time_step, [&] {
             if (!is_new) near_.finish(store_);
@@ -155,10 +183,16 @@ public:
     }
     void end_step() {
         ++steps_;
-        if (how_.guard.every != 0 && steps_ % how_.guard.every == 0) look();
+        if (how_.guard.every == 0 || steps_ % how_.guard.every != 0) return;
+        if (forces_are_old_) {  // of an integrator that ends with a drift: ghosts are where they were before it
+            clear_forces();
+            evaluate_forces();
+        }
+        look();
     }
 
 private:
+    using partners = detail::partners;
     using columns_type = detail::columns<simulation_type>;
     using bodies_type = typename simulation_type::bodies_type;
 
@@ -184,7 +218,7 @@ private:
     void travel(real fastest_square, double duration) noexcept {
         near_.travel(std::sqrt(static_cast<double>(fastest_square)) * std::abs(duration));
     }
-    void begin(bool finds_forces) {
+    void begin(bool finds_forces, partners which) {
         is_started_ = false;
         has_been_at_rest_ = false;
         agreement<> all(on_->rank());
@@ -193,7 +227,8 @@ private:
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
         refuse_duplicates();
-        near_.renew(store_, typename simulation_type::restart_fields{});
+        near_.renew(store_, typename simulation_type::restart_fields{}, which);
+        counted_ = store_.size();
         at_ = columns_type(store_, box(), bodies());
         look();
         if (finds_forces) {
@@ -201,6 +236,19 @@ private:
             find_forces(0, [] {});  // no time passes: what contacts remember stays
         }
         is_started_ = true;
+    }
+    /// Whether particles were added or removed behind our back. Collective.
+    void check_count() {
+        agreement<> all(on_->rank());
+        all.attempt([&] {
+            if (store_.size() != counted_)
+                tsubu::detail::raise<input_error>("dem::run::steps",
+                                                  std::to_string(store_.size()) + " particles and ghosts, where neighbours were found of " +
+                                                      std::to_string(counted_),
+                                                  "add and remove particles by run::change, or start again");
+        });
+        on_->reduce(all.words(), reduction::sum);
+        all.settle("dem::run::steps");
     }
     void refuse_duplicates() {
         const auto twice = duplicate_ids(*on_, store_.owned()[tsubu::id]);
@@ -215,8 +263,8 @@ private:
         agreement<> all(on_->rank());
         all.attempt([&] { watching.check(steps_); });
         on_->reduce(all.words(), reduction::sum);
-        all.settle("dem::run");
-        watching.check_energy(steps_, has_been_at_rest_);
+        all.settle("dem::run", "particles are at that step");
+        watching.check_together(steps_, has_been_at_rest_);
     }
     /// @param finish  to be called before anything is read of ghosts
     template <class Finish>
@@ -254,11 +302,24 @@ private:
     detail::neighborhood<simulation_type, Transport> near_;
     columns_type at_;
     std::uint64_t steps_ = 0;
+    std::size_t counted_ = 0;  // particles and ghosts when neighbours were found
+    bool forces_are_old_ = false;
     bool has_been_at_rest_ = false;
     bool is_started_ = false;
 
     template <class Run>
     friend void detail::solve_damping(Run&, double);
 };
+
+/// A run of a scene, with the transport's type found out.
+///
+///     auto bed = tsubu::dem::make_run<scene>(box, {.time_step = 1e-4, .skin = 0.1}, on, law, gravity, grains);
+///
+/// @throws input_error as the constructor of run.
+template <class Simulation, transport Transport, class... Models>
+[[nodiscard]] run<Simulation, Transport> make_run(const typename Simulation::box_type& box, const options& how, Transport& on,
+                                                  const Models&... models) {
+    return run<Simulation, Transport>(box, how, on, models...);
+}
 
 }  // namespace tsubu::dem

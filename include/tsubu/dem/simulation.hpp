@@ -123,17 +123,17 @@ struct simulation {
     /// What the motion itself reads and changes.
     using motion_fields =
         union_of<union_of<typename quantities_type::place_fields,
-                          fields<quantities_type::velocity, quantities_type::force>>,
-                 std::conditional_t<turns, fields<quantities_type::angular_velocity, quantities_type::torque>, fields<>>>;
+                          tsubu::fields<quantities_type::velocity, quantities_type::force>>,
+                 std::conditional_t<turns, tsubu::fields<quantities_type::angular_velocity, quantities_type::torque>, tsubu::fields<>>>;
     using moved_fields =
-        union_of<union_of<typename quantities_type::place_fields, fields<quantities_type::velocity>>,
-                 std::conditional_t<turns, fields<quantities_type::angular_velocity>, fields<>>>;
+        union_of<union_of<typename quantities_type::place_fields, tsubu::fields<quantities_type::velocity>>,
+                 std::conditional_t<turns, tsubu::fields<quantities_type::angular_velocity>, tsubu::fields<>>>;
     /// What each force evaluation writes anew.
-    using summed_fields = union_of<fields<quantities_type::force>,
-                                   std::conditional_t<turns, fields<quantities_type::torque>, fields<>>>;
+    using summed_fields = union_of<tsubu::fields<quantities_type::force>,
+                                   std::conditional_t<turns, tsubu::fields<quantities_type::torque>, tsubu::fields<>>>;
 
     /// What a particle carries.
-    using fields_type = typename detail::union_of_all<
+    using fields = typename detail::union_of_all<
         tsubu::fields<tsubu::id>, motion_fields, typename Integrator::template keeps<quantities_type>,
         typename bodies_type::template reads<quantities_type>, typename Models::template reads<quantities_type>...,
         typename Models::template writes<quantities_type>...>::type;
@@ -145,11 +145,11 @@ struct simulation {
     /// What goes to ghosts every step: what pairs read of them, and the motion changes.
     using forward_fields = intersection_of<ghost_fields, moved_fields>;
     /// What goes along when a particle changes its rank: all but what the next force evaluation writes anew.
-    using migration_fields = difference_of<fields_type, summed_fields>;
+    using migration_fields = difference_of<fields, summed_fields>;
     /// What a restart holds: all, since the next step begins with the forces of the last.
-    using restart_fields = fields_type;
+    using restart_fields = fields;
 
-    using store_type = particle_store<fields_type>;
+    using store_type = particle_store<fields>;
     static constexpr std::size_t bytes_per_particle = store_type::bytes_per_particle;
 };
 

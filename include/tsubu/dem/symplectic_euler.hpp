@@ -6,6 +6,7 @@
 #include <tsubu/dem/integrator.hpp>
 #include <tsubu/store/field.hpp>
 
+#include <cmath>    // std::sqrt
 #include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
@@ -18,6 +19,8 @@ struct symplectic_euler {
     static constexpr unsigned force_evaluations = 1;
     static constexpr bool moves_spins = true;
     static constexpr bool solves_damping = false;
+    /// 2 (sqrt(1 + z^2) - z), as a quotient: the difference rounds to 0.
+    [[nodiscard]] static double stable_until(double z) noexcept { return 2 / (std::sqrt(1 + z * z) + z); }
     template <class Q>
     using keeps = fields<>;
 

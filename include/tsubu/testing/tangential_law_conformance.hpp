@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Does a tangential law keep its seven laws? A suite for any test framework, or none.
+/// Does a tangential law keep its eight laws? A suite for any test framework, or none.
 ///
 ///     tsubu::testing::check_tangential_law<3>(my_friction{...}, [](bool ok, std::string_view law) { ... });
 #pragma once
@@ -32,10 +32,11 @@ struct tangential_law_text {
     static constexpr const char* again = "law 4: after no time force and history are the same";
     static constexpr const char* opposite = "law 5: seen from j force and history are the opposite";
     static constexpr const char* lanes = "law 6: lanes have the results of the numbers, unless built to fuse products";
-    static constexpr const char* stiffness = "law 7: the stiffness is that of the spring";
+    static constexpr const char* viscosity = "law 7: the viscosity is the force per slip without history";
+    static constexpr const char* stiffness = "law 8: the stiffness is that of the spring";
 };
 
-/// Does this law of friction keep laws 1 to 7 in D dimensions, up to the limit of friction and beyond?
+/// Does this law of friction keep laws 1 to 8 in D dimensions, up to the limit of friction and beyond?
 ///
 /// @param check  called as check(bool kept, std::string_view law); a broken law with the round behind its text
 /// @param seed   of the contacts that are tried
@@ -72,6 +73,12 @@ void check_tangential_law(const Law& law, Check&& check, std::uint64_t seed = 1)
         report(std::abs(dem::dot<D, double>(free, at.normal)) <= 1e-12 * strength, tangential_law_text::across);
         report(dem::dot<D, double>(free, slip) <= 1e-12 * strength * detail::length_of<D>(slip),
                tangential_law_text::resists);
+        auto sudden = at;
+        sudden.time_step = 0;
+        history nothing{};
+        const double viscous = detail::length_of<D>(force_of(sudden, boundless, damping, nothing));
+        const double expected = law.viscosity(at.mass, damping) * detail::length_of<D>(slip);
+        report(std::abs(viscous - expected) <= 1e-12 * expected, tangential_law_text::viscosity);
         if constexpr (dem::sticking_law<Law>) {
             history later{};
             auto longer = at;

@@ -3,6 +3,7 @@
 /// What a scene refuses: parameters, particles, and what its guards see.
 #pragma once
 
+#include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
@@ -15,10 +16,11 @@
 #include <tsubu/store/standard_fields.hpp>
 
 #include <algorithm>  // std::max, std::min
-#include <cmath>    // std::abs, std::nextafter, std::sqrt
+#include <cmath>    // std::abs, std::nextafter
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
 #include <limits>   // std::numeric_limits
+#include <span>     // std::span
 #include <string>   // std::string, std::to_string
 #include <tuple>    // std::get
 #include <vector>   // std::vector
@@ -78,7 +80,7 @@ void check_particles(const typename Simulation::store_type& store) {
                 refuse(i, "a radius of " + tsubu::detail::shown(r) + " m", "give a finite length above 0");
             if (!(m > 0))
                 refuse(i, "a mass of " + tsubu::detail::shown(m) + " kg",
-                       "give a mass above 0; an infinite one holds it fast");
+                       "give a mass above 0; an infinite one holds it in place");
         }
         if constexpr (Simulation::turns)
             for (const auto w : store[quantities::angular_velocity][i])
@@ -117,9 +119,14 @@ public:
         const auto& guard = of_.how().guard;
         if (guard.overlap) check_overlaps(step);
         if (guard.time_step) check_time_step(step);
-        if (guard.coordinates) check_coordinates(step);
     }
     /// Collective. @throws input_error on all ranks
+    void check_together(std::uint64_t step, bool& has_been_at_rest) const {
+        if (of_.how().guard.coordinates) check_coordinates(step);
+        check_energy(step, has_been_at_rest);
+    }
+
+private:
     void check_energy(std::uint64_t step, bool& has_been_at_rest) const {
         const double floor = of_.how().guard.energy_floor;
         if (!(floor > 0)) return;
@@ -130,8 +137,6 @@ public:
                    "take a smaller time step, if nothing else has set the scene in motion");
         has_been_at_rest = has_been_at_rest || energy <= floor;
     }
-
-private:
     [[noreturn]] static void refuse(std::uint64_t step, const std::string& what, const char* remedy) {
         tsubu::detail::raise<input_error>("dem::run", "step " + std::to_string(step) + ": " + what, remedy);
     }
@@ -152,27 +157,15 @@ private:
         });
     }
     void check_time_step(std::uint64_t step) const {
-        const double omega = (std::max)(greatest_frequency(of_), least_frequency_of_contact());
-        if (!(of_.how().time_step * omega <= 2))
+        const double longest = longest_time_step_here(of_);
+        if (!(of_.how().time_step <= longest))
             refuse(step,
                    "a time step of " + tsubu::detail::shown(of_.how().time_step) +
-                       " s, and contacts that are stable up to " + tsubu::detail::shown(2 / omega) + " s",
-                   "take a smaller time step, or softer contacts; to see what happens, switch guards::time_step off");
+                       " s, and contacts that are stable up to " + tsubu::detail::shown(longest) + " s",
+                   "take a smaller time step, softer contacts or another integrator; to see what happens, switch "
+                   "guards::time_step off");
     }
-    /// Of the first touch of the lightest particles, if the law is as stiff from there on: what a scene without contacts
-    /// will have.
-    [[nodiscard]] double least_frequency_of_contact() const {
-        if constexpr (simulation::has_contacts) {
-            const double k = of_.template model<typename simulation::contact_type>().normal().stiffness(0.0, 1.0);
-            double lightest = std::numeric_limits<double>::infinity();
-            for (std::size_t i = 0; i < of_.particles().owned_count(); ++i)
-                lightest = (std::min)(lightest, of_.mass(static_cast<index_t>(i)));
-            return std::sqrt((of_.particles().owned_count() > 1 ? 2 : 1) * k / lightest);
-        } else {
-            return 0;
-        }
-    }
-    // Of a scene at rest the speeds end in the noise of rounding: what touches something is left out.
+    // Of a scene at rest the speeds end in the noise of rounding: what touches something may stand still.
     void check_coordinates(std::uint64_t step) const {
         const auto& particles = of_.particles();
         std::vector<unsigned char> is_held(particles.size(), 0);
@@ -181,24 +174,20 @@ private:
             if (!pair.is_wall) is_held[static_cast<std::size_t>(pair.j)] = 1;
         });
         of_.each_spring([&](index_t i, index_t, const spring&) { is_held[static_cast<std::size_t>(i)] = 1; });
-        double fastest = 0;  // in units of the last place of its position, per step
-        double speed = 0;
-        bool is_free = false;
+        double fastest[2] = {0, 0};  // of the free and of the held: units of the last place of a coordinate per step
         for (std::size_t i = 0; i < particles.owned_count(); ++i)
             for (std::size_t k = 0; k < D; ++k) {
                 const double v = std::abs(static_cast<double>(particles[simulation::quantities_type::velocity][i][k]));
-                const double in_units = v * of_.how().time_step / resolution(static_cast<index_t>(i), k);
-                if (in_units > fastest) {
-                    fastest = in_units;
-                    speed = v;
-                    is_free = is_held[i] == 0;
-                }
+                auto& most = fastest[is_held[i]];
+                most = (std::max)(most, v * of_.how().time_step / resolution(static_cast<index_t>(i), k));
             }
-        if (is_free && fastest < 0.5)
+        of_.on().reduce(std::span<double>(fastest), reduction::greatest);
+        const auto& [free, held] = fastest;
+        if (free > held && free < 0.5)
             refuse(step,
-                   "frozen coordinates: at " + tsubu::detail::shown(speed) + " m/s a time step of " +
-                       tsubu::detail::shown(of_.how().time_step) +
-                       " s moves the fastest particle by less than half a unit in the last place of its position",
+                   "frozen coordinates: a time step of " + tsubu::detail::shown(of_.how().time_step) +
+                       " s moves the fastest particle by " + tsubu::detail::shown(free) +
+                       " units in the last place of its position, less than a half",
                    "shift the origin to the particles, or take lattice<std::int64_t> or a longer time step");
     }
     /// The distance of neighbouring coordinates where a particle is [m].

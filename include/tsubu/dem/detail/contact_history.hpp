@@ -43,13 +43,19 @@ struct history_table {
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return touches.memory_bytes() + history.memory_bytes(); }
 };
 
+/// Where the partners of remembered contacts are.
+enum class partners {
+    are_here,     ///< each is near: one that is missing is an error
+    may_be_gone,  ///< they have parted, or were removed: their contact ends
+};
+
 /// Of a law that remembers nothing: nothing.
 template <class Simulation, bool HasHistory = Simulation::has_history>
 class contact_history {
 public:
     void keep(typename Simulation::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
-    void recall(typename Simulation::store_type&, std::span<const index_pair>, std::span<const index_pair>) {}
-    void begin(std::size_t, std::size_t) {}
+    void recall(typename Simulation::store_type&, std::span<const index_pair>, std::span<const index_pair>, partners) {}
+    void drop_kept(typename Simulation::store_type&) {}
     [[nodiscard]] touch_state* pair_touches() noexcept { return nullptr; }
     [[nodiscard]] touch_state* wall_touches() noexcept { return nullptr; }
     [[nodiscard]] vec<0, typename Simulation::real>* pair_history() noexcept { return nullptr; }
@@ -72,6 +78,7 @@ public:
 
     /// Each owned particle takes what its contacts remember. Replaces what it held.
     void keep(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls) {
+        is_kept_ = true;
         const auto held = store[contacts];
         const auto ids = store[tsubu::id];
         for (std::size_t i = 0; i < store.owned_count(); ++i) held[i].clear();
@@ -88,9 +95,19 @@ public:
             if ((walls_.touches[p] & 1U) != 0)
                 held[at_walls[p].i].push_back({id_of_wall(at_walls[p].j), walls_.history[p]});
     }
-    /// Lays the histories beside new lists, and takes them from the particles. @throws input_error if a partner is not
-    /// here.
-    void recall(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls) {
+    /// What particles have taken is of the past when they move on.
+    void drop_kept(store_type& store) {
+        if (!is_kept_) return;
+        is_kept_ = false;
+        const auto held = store[contacts];
+        for (std::size_t i = 0; i < store.owned_count(); ++i) held[i].clear();
+        store.compact();
+    }
+    /// Lays the histories beside new lists, and takes them from the particles. @throws input_error if a partner that
+    /// should be here is not.
+    void recall(store_type& store, std::span<const index_pair> pairs, std::span<const index_pair> at_walls,
+                partners which) {
+        is_kept_ = false;
         pairs_ = history_table<history_size, real>(pairs.size());
         walls_ = history_table<history_size, real>(at_walls.size());
         const auto held = store[contacts];
@@ -110,9 +127,9 @@ public:
                 const auto partner = found[at++];
                 if (one.partner < 0)
                     lay_beside_wall(at_walls, static_cast<index_t>(i), one);
-                else if (partner == absent)
+                else if (partner == absent && which == partners::are_here)
                     lose(ids[i], one.partner);
-                else
+                else if (partner != absent)
                     for (const auto p : by_first.of(i)) {
                         const auto j = pairs[p].j;
                         // A ghost may be another image than the one that was found.
@@ -159,15 +176,16 @@ private:
             }
     }
     [[noreturn]] static void lose(std::int64_t id, std::int64_t partner) {
-        tsubu::detail::raise<input_error>("dem",
+        tsubu::detail::raise<input_error>("dem::run::start",
                                           "particle " + std::to_string(id) + " remembers a contact with " +
                                               std::to_string(partner) + ", which is not near it on this rank",
-                                          "insert both of them, or clear what contacts remember");
+                                          "insert both of them, or clear the field `contacts`");
     }
 
     history_table<history_size, real> pairs_;
     history_table<history_size, real> walls_;
     id_map<> where_;
+    bool is_kept_ = false;  // particles have a copy
 };
 
 }  // namespace tsubu::dem::detail

@@ -79,7 +79,7 @@ public:
     bool follow(store_type& store) {
         if (watch_.is_due(*on_)) {
             keep_history(store);
-            renew(store, typename Simulation::migration_fields{});
+            renew(store, typename Simulation::migration_fields{}, partners::may_be_gone);
             return true;
         }
         start_forward(store, typename Simulation::forward_fields{});
@@ -95,9 +95,10 @@ public:
     }
     /// The particles take what contacts remember; before they change places, or are written. The lists hold on.
     void keep_history(store_type& store) { history_.keep(store, pairs(), near_walls()); }
+    void drop_kept_history(store_type& store) { history_.drop_kept(store); }
     /// Particles go to their ranks, with these fields; ghosts and neighbours are found anew. Collective.
     template <class Carried>
-    void renew(store_type& store, Carried carried) {
+    void renew(store_type& store, Carried carried, partners which) {
         pairs_ = {};  // they end with the places of particles, whatever fails below
         near_walls_.clear();
         springs_.clear();
@@ -110,7 +111,7 @@ public:
             if constexpr (Simulation::has_contacts) {
                 find_pairs(store);
                 if constexpr (Simulation::has_walls) find_walls(store);
-                history_.recall(store, pairs(), near_walls());
+                history_.recall(store, pairs(), near_walls(), which);
             }
             if constexpr (Simulation::has_springs) find_springs(store);
         });

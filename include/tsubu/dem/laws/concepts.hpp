@@ -64,7 +64,10 @@ template <class Law>
 concept bends_forces =
     tangential_law_of<Law, 2, double> && tangential_law_of<Law, 3, double> && tangential_law_of<Law, 3, float> &&
     tangential_law_of<Law, 3, lanes<double>> && tangential_law_of<Law, 3, lanes<float>> &&
-    requires(const Law& law) { { law.mu } -> std::convertible_to<double>; };
+    requires(const Law& law, double number) {
+        { law.mu } -> std::convertible_to<double>;
+        { law.viscosity(number, number) } -> std::same_as<double>;
+    };
 template <class Law>
 concept gives_torques =
     rolling_law_of<Law, 2, double> && rolling_law_of<Law, 3, double> && rolling_law_of<Law, 3, float> &&
@@ -128,7 +131,9 @@ concept normal_law = std::semiregular<Law> && detail::normal_law_of<Law, double>
 ///     the law answers the same;
 ///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite, exactly:
 ///     across a border between ranks each computes its own side;
-///  6. lanes of numbers have the same results as the numbers, bit for bit.
+///  6. lanes of numbers have the same results as the numbers, bit for bit;
+///  7. viscosity(m*, damping) is the force per slip without history and below the limit [N s/m]: it limits the time step
+///     (longest_time_step).
 /// goes_with<Normal>: whether that normal law has its stiffness.
 template <class Law>
 concept tangential_law =
@@ -136,7 +141,7 @@ concept tangential_law =
     requires { { Law::turns } -> std::convertible_to<bool>; } && (!Law::turns || detail::bends_forces<Law>);
 
 /// A tangential law whose contacts can stick:
-///  7. stiffness(d, R*) is that of its spring [N/m], which limits the time step (greatest_frequency).
+///  8. stiffness(d, R*) is that of its spring [N/m], which limits the time step as well.
 template <class Law>
 concept sticking_law = tangential_law<Law> && requires(const Law& law, double number) {
     { law.stiffness(number, number) } -> std::same_as<double>;

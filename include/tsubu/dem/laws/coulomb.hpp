@@ -17,7 +17,7 @@ namespace tsubu::dem {
 /// Sliding friction, regularised by a viscosity at low speed: |F_t| = min(gamma_t m* v_t, mu |F_n|).
 ///
 /// Concept:       tangential_law.
-/// Cost:          one root, one quotient and some 30 products per contact in 3-D; spins and velocities of ghosts are
+/// Cost:          one root, one quotient and some 40 products per contact in 3-D; spins and velocities of ghosts are
 ///                sent.
 /// Bytes:         none per contact; spins and torques per particle.
 /// Deterministic: yes.
@@ -38,6 +38,7 @@ struct coulomb {
         detail::check_not_negative("dem::coulomb", "friction mu", mu, "");
         detail::check_not_negative("dem::coulomb", "damping gamma_t", gamma_t, "1/s");
     }
+    [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real&, vec<0, Real>&) const noexcept {

@@ -16,7 +16,7 @@ namespace tsubu::dem {
 /// A linear spring along the surface, and friction: |F_t| <= mu |F_n|.
 ///
 /// Concept:       sticking_law.
-/// Cost:          some 40 products per contact in 3-D; a root and two quotients where one of a group of contacts
+/// Cost:          some 60 products per contact in 3-D; a root and two quotients where one of a group of contacts
 ///                slides; spins and velocities of ghosts are sent.
 /// Bytes:         D numbers for each pair of neighbours; spins and torques per particle.
 /// Deterministic: yes.
@@ -41,6 +41,7 @@ struct linear_history {
         detail::check_not_negative("dem::linear_history", "damping gamma_t", gamma_t, "1/s");
     }
     [[nodiscard]] double stiffness(double, double) const noexcept { return k_t; }
+    [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real&, vec<D, Real>& spring) const noexcept {

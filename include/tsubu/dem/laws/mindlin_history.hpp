@@ -21,7 +21,7 @@ namespace tsubu::dem {
 /// its spring stretched, energy is lost, and gained while it loads.
 ///
 /// Concept:       sticking_law, damping_sharing_law.
-/// Cost:          a root and some 40 products per contact in 3-D; one more root and two quotients where one of a
+/// Cost:          a root and some 60 products per contact in 3-D; one more root and two quotients where one of a
 ///                group of contacts slides; spins and velocities of ghosts are sent.
 /// Bytes:         D numbers for each pair of neighbours; spins and torques per particle.
 /// Deterministic: yes.
@@ -48,6 +48,7 @@ struct mindlin_history {
     [[nodiscard]] double stiffness(double overlap, double radius) const noexcept {
         return 8 * shear_modulus * std::sqrt(radius * overlap);
     }
+    [[nodiscard]] double viscosity(double, double normal_damping) const noexcept { return damping * normal_damping; }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<D, Real> force(const contact<D, Real>& at, const Real& normal_force,
                                                          const Real& normal_damping,

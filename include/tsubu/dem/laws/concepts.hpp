@@ -21,11 +21,11 @@
 /// | linear_history  | D                | beds and heaps of Hookean spheres, which are to come to rest  |
 /// | mindlin_history | D                | the same of Hertzian spheres                                  |
 ///
-/// | role     | parts                               | history, numbers     | choose the second when                      |
-/// |----------|-------------------------------------|----------------------|---------------------------------------------|
-/// | rolling  | free_rolling, rolling_resistance    | 0; 3, in 2-D 1       | grains are not round                        |
-/// | cohesion | cohesionless, dmt_cohesion          | 0                    | the powder is fine and hard                 |
-/// | release  | until_separation, without_attraction | 0                   | a damped contact is never to pull           |
+/// | role     | parts                                | history, numbers | choose the second when          |
+/// |----------|--------------------------------------|------------------|---------------------------------|
+/// | rolling  | free_rolling, rolling_resistance     | 0; 3, in 2-D 1   | grains are not round            |
+/// | cohesion | cohesionless, dmt_cohesion           | 0                | the powder is fine and hard     |
+/// | release  | until_separation, without_attraction | 0                | a damped contact must not pull  |
 #pragma once
 
 #include <tsubu/core/lanes.hpp>

@@ -194,8 +194,8 @@ private:
             }
         char title[128];
         std::snprintf(title, sizeof title, "%s: %zu %s%s, t = %.4g s", asked_.name.c_str(), spheres.size(),
-                      D == 2 && !run_type::simulation_type::has_walls ? "disk" : "sphere", spheres.size() == 1 ? "" : "s",
-                      time());
+                      D == 2 && !run_type::simulation_type::has_walls ? "disk" : "sphere",
+                      spheres.size() == 1 ? "" : "s", time());
         sphere_picture(title, D == 3).write(path(".svg"), spheres, outlines(spheres));
     }
     /// Walls, as far as there are spheres; the edges of a box of three dimensions.

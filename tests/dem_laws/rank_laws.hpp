@@ -15,8 +15,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace dem_laws {
@@ -148,37 +150,46 @@ template <tsubu::transport Transport, class Check>
 void bed_does_not_depend_on_ranks(Transport& on, Check&& check) {
     scene_does_not_depend_on_ranks(small_bed(), 1000, 1e-9, on, check, [](auto& bed) { push_sideways(bed); });
 }
+/// Where a bed is so many steps after it was read from a file.
+/// @param reads_alone  the last rank reads all of it
+/// @param forgets      what contacts remember is thrown away
+template <class Scene, tsubu::transport Transport>
+[[nodiscard]] std::vector<double> states_after_file(const Scene& scene, const std::string& path, std::size_t steps,
+                                                    Transport& on, bool reads_alone = false, bool forgets = false) {
+    using simulation = typename Scene::simulation;
+    const auto other = std::apply(
+        [&](const auto&... models) {
+            return std::make_unique<tsubu::dem::run<simulation, Transport>>(scene.box(), scene.how(), on, models...);
+        },
+        scene.models());
+    auto& particles = other->particles();
+    if (!reads_alone)
+        tsubu::read_restart(on, path, particles, typename simulation::restart_fields{},
+                            typename simulation::decomposition_type(scene.box(), on.ranks()));
+    else if (on.rank() + 1 == on.ranks())
+        tsubu::read_restart(path, particles, typename simulation::restart_fields{});
+    if (forgets)
+        for (std::size_t i = 0; i < particles.size(); ++i)
+            particles[simulation::quantities_type::template contacts<simulation::history_size>][i].clear();
+    other->resume();
+    other->steps(steps);
+    return all_states(*other, 1, static_cast<std::size_t>(scene.count()));
+}
 /// A bed goes on from a file as it would have gone on, whatever reads it; without what its contacts remember it does
 /// not.
 /// @param path  of a file that all ranks see
 template <tsubu::transport Transport, class Check>
 void bed_goes_on_from_a_file(Transport& on, const std::string& path, Check&& check) {
     const auto scene = small_bed();
-    using simulation = tsubu::dem::settle_scene<>::simulation;
-    const auto count = static_cast<std::size_t>(scene.count());
     const auto first = tsubu::dem::stage(scene, on);
     push_sideways(*first);
     first->steps(1000);
     first->keep_history();
-    tsubu::write_restart(on, path, first->particles(), simulation::restart_fields{});
+    tsubu::write_restart(on, path, first->particles(), tsubu::dem::settle_scene<>::simulation::restart_fields{});
     first->steps(100);
-    const auto expected = all_states(*first, 1, count);
-
+    const auto expected = all_states(*first, 1, static_cast<std::size_t>(scene.count()));
     const auto off_after = [&](bool reads_alone, bool forgets) {
-        tsubu::dem::run<simulation, Transport> other(scene.box(), scene.how(), on, scene.law,
-                                                     std::get<1>(scene.models()), std::get<2>(scene.models()),
-                                                     std::get<3>(scene.models()));
-        if (!reads_alone)
-            tsubu::read_restart(on, path, other.particles(), simulation::restart_fields{},
-                                simulation::decomposition_type(scene.box(), on.ranks()));
-        else if (on.rank() + 1 == on.ranks())
-            tsubu::read_restart(path, other.particles(), simulation::restart_fields{});
-        if (forgets)
-            for (std::size_t i = 0; i < other.particles().size(); ++i)
-                other.particles()[simulation::quantities_type::contacts<simulation::history_size>][i].clear();
-        other.resume();
-        other.steps(100);
-        return farthest(all_states(other, 1, count), expected, other.box(), 3);
+        return farthest(states_after_file(scene, path, 100, on, reads_alone, forgets), expected, first->box(), 3);
     };
     const double shared = off_after(false, false);
     check(shared < 1e-10, "restart: off by " + std::to_string(shared));

@@ -28,8 +28,9 @@ namespace detail {
 
 /// body(touching_pair) for each pair of the lists that overlaps; of the pairs across a border each side has one.
 template <class Simulation, class Body>
-void each_touching(const columns<Simulation>& of, std::span<const index_pair> pairs, std::span<const index_pair> near_walls,
-                   std::span<const wall_plane<Simulation::dimension>> walls, Body&& body) {
+void each_touching(const columns<Simulation>& of, std::span<const index_pair> pairs,
+                   std::span<const index_pair> near_walls, std::span<const wall_plane<Simulation::dimension>> walls,
+                   Body&& body) {
     constexpr auto D = Simulation::dimension;
     const auto velocity = [&](index_t i, std::size_t k) { return static_cast<double>(of.v[i][k]); };
     for (const auto [i, j] : pairs) {

@@ -14,7 +14,7 @@ namespace tsubu::dem {
 /// A drift with the old velocities, and a kick with the old forces.
 ///
 /// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; each elastic contact gains
-/// energy, by (omega dt)^2 per step: for no time step it is stable.
+/// energy, by (omega dt)^2 per step: without damping it is stable for no time step.
 /// Choose it to see that. Do not otherwise.
 struct explicit_euler {
     static constexpr unsigned force_evaluations = 1;

@@ -6,7 +6,7 @@
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
-#include <tsubu/dem/detail/motion.hpp>
+#include <tsubu/dem/detail/columns.hpp>
 #include <tsubu/dem/each_contact.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/store/standard_fields.hpp>

@@ -36,13 +36,13 @@ class run;
 
 /// A scene with its particles on the ranks of a transport.
 ///
-///     tsubu::dem::run<scene, tsubu::self_transport> bed(box, {.time_step = 1e-4, .skin = 0.1}, on, law, gravity, grains);
+///     auto bed = tsubu::dem::make_run<scene>(box, {.time_step = 1e-4, .skin = 0.1}, on, law, gravity, grains);
 ///     bed.particles().push_back(tsubu::id = 1, tsubu::position<3> = {1, 1, 1});
 ///     bed.start();
 ///     bed.steps(1000);
 ///
-/// The models are given in the order of the scene's; equal_spheres last, where the scene does not name it. The transport
-/// must outlive the run.
+/// The models are given in the order of the scene's; equal_spheres last, where the scene does not name it. The
+/// transport must outlive the run.
 ///
 /// Collective: start, resume, change and steps, with the same box, options and models on all ranks.
 /// Threads:    one at a time.
@@ -85,14 +85,14 @@ public:
     /// What particles, neighbours and memory of contacts take on this rank [bytes].
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return store_.memory_bytes() + near_.memory_bytes(); }
 
-    /// Particles go to their ranks, neighbours are found, and forces computed. Contacts begin without a history, but for
-    /// that which particles of a restart bring with them.
+    /// Particles go to their ranks, neighbours are found, and forces computed. Contacts begin without a history, but
+    /// for that which particles of a restart bring with them.
     /// @throws on all ranks or none: input_error if a particle is not what it may be, or a guard refuses.
     void start() { begin(true, partners::are_here); }
     /// As start, for particles of a restart: they have their forces.
     void resume() { begin(false, partners::are_here); }
-    /// body(particles()) adds, removes or changes particles; then as start, but contacts keep their history where both of
-    /// their particles remain. Forces are computed anew: a dashpot sees velocities of the full step for once.
+    /// body(particles()) adds, removes or changes particles; then as start, but contacts keep their history where both
+    /// of their particles remain. Forces are computed anew: a dashpot sees velocities of the full step for once.
     ///
     ///     bed.change([](auto& grains) { if (!grains.empty()) grains.swap_remove(0); });
     ///
@@ -111,8 +111,8 @@ public:
         all.settle("dem::run::change");
         begin(true, partners::may_be_gone);
     }
-    /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left the
-    /// box, or a guard refuses. Particles are somewhere within a step then: look at them, or go back to a restart.
+    /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left
+    /// the box, or a guard refuses. Particles are somewhere within a step then: look at them, or go back to a restart.
     void steps(std::size_t count) {
         if (!is_started_) start();
         check_count();
@@ -200,15 +200,18 @@ private:
         : how_(how),
           on_(&on),
           models_(models),
-          near_(box, checked(how), on, bodies(), detail::walls_of<simulation_type>(models_), detail::spring_kinds_of<simulation_type>(models_)) {
+          near_(box, checked(how), on, bodies(), detail::walls_of<simulation_type>(models_),
+                detail::spring_kinds_of<simulation_type>(models_)) {
         std::apply([](const auto&... one) { (detail::check_model(one), ...); }, models_);
         if constexpr (simulation_type::has_gravity)
-            for (std::size_t k = 0; k < D; ++k) gravity_[k] = model<typename simulation_type::gravity_type>().acceleration[k];
+            for (std::size_t k = 0; k < D; ++k)
+                gravity_[k] = model<typename simulation_type::gravity_type>().acceleration[k];
     }
     static const options& checked(const options& how) {
         if (!(how.time_step > 0) || !tsubu::detail::is_finite(how.time_step))
-            tsubu::detail::raise<input_error>(
-                "dem::run", "a time step of " + tsubu::detail::shown(how.time_step) + " s", "give a finite time above 0");
+            tsubu::detail::raise<input_error>("dem::run",
+                                              "a time step of " + tsubu::detail::shown(how.time_step) + " s",
+                                              "give a finite time above 0");
         return how;
     }
     [[nodiscard]] const bodies_type& bodies() const noexcept { return model<bodies_type>(); }
@@ -243,7 +246,8 @@ private:
         all.attempt([&] {
             if (store_.size() != counted_)
                 tsubu::detail::raise<input_error>("dem::run::steps",
-                                                  std::to_string(store_.size()) + " particles and ghosts, where neighbours were found of " +
+                                                  std::to_string(store_.size()) +
+                                                      " particles and ghosts, where neighbours were found of " +
                                                       std::to_string(counted_),
                                                   "add and remove particles by run::change, or start again");
         });
@@ -255,7 +259,9 @@ private:
         if (twice.empty()) return;
         tsubu::detail::raise<input_error>("dem::run::start",
                                           std::to_string(twice.total) + " ids are given to more than one particle" +
-                                              (twice.here.empty() ? "" : ", " + std::to_string(twice.here[0].id) + " is one"),
+                                              (twice.here.empty()
+                                                   ? ""
+                                                   : ", " + std::to_string(twice.here[0].id) + " is one"),
                                           "give each particle its own: contacts are remembered by it");
     }
     void look() {
@@ -270,13 +276,15 @@ private:
     template <class Finish>
     void find_forces(double time_step, Finish&& finish) {
         if constexpr (simulation_type::has_contacts) {
-            const detail::contact_kernel<simulation_type> kernel(at_, model<typename simulation_type::contact_type>(), time_step);
+            const detail::contact_kernel<simulation_type> kernel(at_, model<typename simulation_type::contact_type>(),
+                                                                 time_step);
             auto& history = near_.history();
             const auto pairs = near_.pairs();
             const auto inner = near_.inner_pairs();
             kernel.act_on_pairs(pairs.first(inner), history.pair_touches(), history.pair_history());
             finish();
-            kernel.act_on_pairs(pairs.subspan(inner), history.pair_touches() + (simulation_type::has_history ? inner : 0),
+            kernel.act_on_pairs(pairs.subspan(inner),
+                                history.pair_touches() + (simulation_type::has_history ? inner : 0),
                                 history.pair_history() + (simulation_type::has_history ? inner : 0));
             if constexpr (simulation_type::has_walls)
                 kernel.act_on_walls(near_.near_walls(), near_.walls(), history.wall_touches(), history.wall_history());
@@ -317,8 +325,8 @@ private:
 ///
 /// @throws input_error as the constructor of run.
 template <class Simulation, transport Transport, class... Models>
-[[nodiscard]] run<Simulation, Transport> make_run(const typename Simulation::box_type& box, const options& how, Transport& on,
-                                                  const Models&... models) {
+[[nodiscard]] run<Simulation, Transport> make_run(const typename Simulation::box_type& box, const options& how,
+                                                  Transport& on, const Models&... models) {
     return run<Simulation, Transport>(box, how, on, models...);
 }
 

@@ -14,8 +14,8 @@ namespace tsubu::dem {
 
 /// The classical Runge-Kutta method.
 ///
-/// Concept: integrator. Cost: four force evaluations per step; bytes: 4 D numbers for what the step began with and the sum
-/// of its slopes.
+/// Concept: integrator. Cost: four force evaluations per step; bytes: 4 D numbers, for what the step began with and the
+/// sum of its slopes.
 /// Order: 4 for smooth forces, with velocities too; of a contact what that allows. Energy drifts.
 /// Choose it for smooth problems with damping. Do not for collisions, nor for long runs without damping: pefrl. What
 /// makes particles spin does not compile with it.
@@ -24,8 +24,8 @@ struct runge_kutta_4 {
     static constexpr unsigned force_evaluations = 4;
     static constexpr bool moves_spins = false;
     static constexpr bool solves_damping = false;
-    /// Numerically, rounded down: 2.62 is the least of all z in (0, 1], at z = .5; beyond, the fast one of two real modes
-    /// has to be below 2.785.
+    /// Numerically, rounded down: 2.62 is the least of all z in (0, 1], at z = .5; beyond, the fast one of two real
+    /// modes has to be below 2.785.
     [[nodiscard]] static double stable_until(double z) noexcept {
         if (z == 0) return 2.82;
         return z <= 1 ? 2.62 : 2.785 / (z + std::sqrt(z * z - 1));

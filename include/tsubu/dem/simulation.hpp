@@ -57,8 +57,10 @@ struct union_of_all<First, Rest...> {
 ///
 /// @tparam D           1, 2 or 3
 /// @tparam Number      a number_policy: double, mixed_precision<double, float>, lattice<std::int64_t>, ...
-/// @tparam Integrator  velocity_verlet, implicit_velocity_verlet, symplectic_euler, explicit_euler, runge_kutta_4, pefrl
-/// @tparam Models      each at most once: a contact_law, walls, springs, gravity, and equal_spheres (default) or spheres
+/// @tparam Integrator  velocity_verlet, implicit_velocity_verlet, symplectic_euler, explicit_euler, runge_kutta_4 or
+///                     pefrl
+/// @tparam Models      each at most once: a contact_law, walls, springs, gravity, and equal_spheres (default) or
+///                     spheres
 template <std::size_t D, number_policy Number, integrator Integrator, model... Models>
 struct simulation {
     static_assert(D >= 1 && D <= 3, "a scene has 1, 2 or 3 dimensions");
@@ -124,7 +126,8 @@ struct simulation {
     using motion_fields =
         union_of<union_of<typename quantities_type::place_fields,
                           tsubu::fields<quantities_type::velocity, quantities_type::force>>,
-                 std::conditional_t<turns, tsubu::fields<quantities_type::angular_velocity, quantities_type::torque>, tsubu::fields<>>>;
+                 std::conditional_t<turns, tsubu::fields<quantities_type::angular_velocity, quantities_type::torque>,
+                                    tsubu::fields<>>>;
     using moved_fields =
         union_of<union_of<typename quantities_type::place_fields, tsubu::fields<quantities_type::velocity>>,
                  std::conditional_t<turns, tsubu::fields<quantities_type::angular_velocity>, tsubu::fields<>>>;

@@ -56,8 +56,8 @@ template <std::size_t D>
     return most;
 }
 
-/// body(k, c) for bounds of k/m [1/s^2] and c/m [1/s] of all modes that an owned particle takes part in, and for the slip
-/// of each contact.
+/// body(k, c) for bounds of k/m [1/s^2] and c/m [1/s] of all modes that an owned particle takes part in, and for the
+/// slip of each contact.
 template <class Run, class Body>
 void each_mode(const Run& of, Body&& body) {
     using simulation = typename Run::simulation_type;
@@ -117,11 +117,13 @@ template <class Run>
     const auto see = [&](double k, double c) {
         // Where there is a dashpot and no spring, one that is too soft to matter.
         const double omega = (std::max)(std::sqrt(k), 1e-6 * c);
-        if (omega > 0) longest = (std::min)(longest, simulation::integrator_type::stable_until(c / (2 * omega)) / omega);
+        if (omega > 0)
+            longest = (std::min)(longest, simulation::integrator_type::stable_until(c / (2 * omega)) / omega);
     };
     each_mode(of, see);
     if constexpr (simulation::has_contacts) {
-        // The first touch of the lightest, if the law is as stiff from there on: what will be where nothing touches yet.
+        // The first touch of the lightest, if the law is as stiff from there on: what will be where nothing
+        // touches.
         const auto& law = of.template model<typename simulation::contact_type>().normal();
         const auto owned = of.particles().owned_count();
         double lightest = std::numeric_limits<double>::infinity();
@@ -139,10 +141,11 @@ template <class Run>
 /// sqrt(2 max lambda_max(sum k n n^T) / m) of the forces along normals; or sqrt(7/2 k_t / m*) of a contact that sticks,
 /// whose slip has the mass 2/7 m*, if that is more.
 ///
-/// Exact for the infinite chain and the FCC crystal. No bound where several contacts of one particle stick and k_t is above
-/// 2/7 of k_n.
+/// Exact for the infinite chain and the FCC crystal. No bound where several contacts of one particle stick and k_t is
+/// above 2/7 of k_n.
 /// Collective: yes, one reduction. Complexity: O(contacts).
-/// Source: Rayleigh's quotient, with (n (x_i - x_j))^2 <= 2 (n x_i)^2 + 2 (n x_j)^2; a wall stands still, and counts half.
+/// Source: Rayleigh's quotient, with (n (x_i - x_j))^2 <= 2 (n x_i)^2 + 2 (n x_j)^2; a wall stands still, and counts
+/// half.
 template <class Run>
 [[nodiscard]] double greatest_frequency(const Run& of) {
     double square = 0;
@@ -150,15 +153,15 @@ template <class Run>
     of.on().reduce(std::span<double>(&square, 1), reduction::greatest);
     return std::sqrt(square);
 }
-/// The longest time step at which what touches, as stiff and as damped as it is at the moment, is stable with the integrator
-/// of the scene [s]; infinite if nothing touches, and the law begins softly.
+/// The longest time step at which what touches, as stiff and as damped as it is at the moment, is stable with the
+/// integrator of the scene [s]; infinite if nothing touches, and the law begins softly.
 ///
 ///     if (bed.how().time_step > tsubu::dem::longest_time_step(bed)) ...
 ///
-/// Each particle gives bounds omega and c of the frequency and the damping rate of its modes, as greatest_frequency does;
-/// the step is the least integrator::stable_until(c / (2 omega)) / omega. For velocity_verlet and symplectic_euler that is a
-/// bound of any packing, since theirs is dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over contacts. A law that is linear from
-/// the first touch counts with two of the lightest particles, even if none touch.
+/// Each particle gives bounds omega and c of the frequency and the damping rate of its modes, as greatest_frequency
+/// does; the step is the least integrator::stable_until(c / (2 omega)) / omega. For velocity_verlet and
+/// symplectic_euler that is a bound of any packing, since theirs is dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over
+/// contacts. A law that is linear from the first touch counts with two of the lightest particles, even if none touch.
 /// Collective: yes, one reduction. Complexity: O(contacts).
 template <class Run>
 [[nodiscard]] double longest_time_step(const Run& of) {

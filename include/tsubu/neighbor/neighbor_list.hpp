@@ -8,7 +8,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/neighbor/detail/cells.hpp>
 #include <tsubu/neighbor/detail/growing.hpp>
-#include <tsubu/neighbor/detail/list_checks.hpp>
+#include <tsubu/neighbor/positions.hpp>
 #include <tsubu/neighbor/reach.hpp>
 
 #include <algorithm>  // std::max
@@ -49,7 +49,7 @@ public:
         constexpr auto where = "neighbor_list::build";
         const auto sorted = detail::sorted_into_cells(where, x, owned, reach);
         detail::growing<index_t> found(detail::room_after((std::max)(count_, owned)),
-                                       (std::numeric_limits<std::uint32_t>::max)(), where);
+                                       (std::numeric_limits<std::uint32_t>::max)(), where, "neighbours");
         buffer<row> rows(owned, {});
         sorted.each_full(static_cast<index_t>(owned), [&](auto& near, std::size_t k) {
             const auto i = near.index(k);
@@ -65,8 +65,9 @@ public:
             rows[static_cast<std::size_t>(i)] = {static_cast<std::uint32_t>(begin),
                                                  static_cast<std::uint32_t>(found.size() - begin)};
         });
-        count_ = found.size();
-        neighbors_ = found.take();
+        const auto count_of_all = found.size();
+        neighbors_ = found.take();  // the last that may throw
+        count_ = count_of_all;
         rows_ = std::move(rows);
     }
     /// Those near owned particle i. Precondition: i < size().
@@ -74,7 +75,7 @@ public:
         TSUBU_EXPECTS(i < rows_.size(), "neighbor_list::of: no owned particle has this index; ghosts have no row");
         return {neighbors_.data() + rows_[i].begin, rows_[i].count};
     }
-    /// How many owned particles there are.
+    /// How many owned particles there are: each has a row. Of a pair_list it is the pairs, which are what it holds.
     [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
     /// How many neighbours all have together.
     [[nodiscard]] std::size_t total() const noexcept { return count_; }

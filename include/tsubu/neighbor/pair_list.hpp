@@ -7,7 +7,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/neighbor/detail/cells.hpp>
 #include <tsubu/neighbor/detail/growing.hpp>
-#include <tsubu/neighbor/detail/list_checks.hpp>
+#include <tsubu/neighbor/positions.hpp>
 #include <tsubu/neighbor/reach.hpp>
 
 #include <algorithm>  // std::copy_n, std::max, std::min
@@ -51,13 +51,13 @@ public:
         constexpr auto where = "pair_list::build";
         const auto sorted = detail::sorted_into_cells(where, x, owned, reach);
         detail::growing<index_pair> found(detail::room_after((std::max)(count_, owned)),
-                                          (std::numeric_limits<std::uint32_t>::max)(), where);
+                                          (std::numeric_limits<std::uint32_t>::max)(), where, "pairs");
         const auto first_ghost = static_cast<index_t>(owned);
         // Which of two is an owned one, and has the lower index, is asked of many pairs in one loop.
         constexpr std::size_t batch = 512;
         std::size_t settled = 0;
         detail::growing<index_pair> outer(detail::room_after(count_ - inner_count_),
-                                          (std::numeric_limits<std::uint32_t>::max)(), where);
+                                          (std::numeric_limits<std::uint32_t>::max)(), where, "pairs");
         const auto settle = [&] {
             auto* const first = found.data();
             auto* to = first + settled;

@@ -51,8 +51,8 @@ public:
         travelled_ = used_ = looked_ = 0;
         unchecked_ = 0;
     }
-    /// Whether to find neighbours before they are used again: the skin is crossed, or will be before the next look. Each
-    /// call that answers no is a use of the list.
+    /// Whether to find neighbours before they are used again: the skin is crossed, or will be before the next look.
+    /// Each call that answers no is a use of the list.
     /// @throws on all ranks: input_error if it was used after twice the way was longer than the skin.
     /// Collective: each `every`-th call, one reduction.
     template <transport Transport>
@@ -62,8 +62,8 @@ public:
             return false;
         }
         unchecked_ = 0;
-        // Before the next look there are uses after every - 1 steps, as fast as since the last look, or a quarter faster.
-        // No product if there are none, nor where the way is infinite.
+        // Before the next look there are uses after every - 1 steps, as fast as since the last look, or a quarter
+        // faster. No product if there are none, nor where the way is infinite.
         const double ahead =
             every_ > 1 && travelled_ > looked_ ? 1.25 * (travelled_ - looked_) * (every_ - 1) / every_ : 0;
         looked_ = travelled_;

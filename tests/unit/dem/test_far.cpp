@@ -3,13 +3,12 @@
 #include <tsubu/dem/quantities.hpp>
 
 #include <tsubu/comm/self_transport.hpp>
-#include <tsubu/core/random.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/references.hpp>
-#include <tsubu/dem/scenes/gas.hpp>
 #include <tsubu/dem/scenes/pair.hpp>
 
 #include "support/catch.hpp"
+#include "unit/dem/exact_gas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,46 +25,11 @@ using namespace tsubu::dem;
 constexpr double origins[] = {0, 1e3, 1e6, 1e9};
 constexpr std::int64_t first_ids[] = {1, 2000000000, 9000000000000};
 
-/// A gas whose box and positions can be told exactly at all of these origins: they are multiples of 2^-20, cells of
-/// 2^-13.
-template <class Number>
-struct exact_gas : gas_scene<hooke<>, velocity_verlet, Number> {
-    using base = gas_scene<hooke<>, velocity_verlet, Number>;
-    using simulation = typename base::simulation;
-
-    [[nodiscard]] auto box() const {
-        using box_type = typename simulation::box_type;
-        const double edge = 2.0 * static_cast<double>(this->per_edge);
-        const auto lo = static_cast<typename box_type::real_type>(this->origin);
-        const auto hi = static_cast<typename box_type::real_type>(this->origin + edge);
-        return box_type({lo, lo, lo}, {hi, hi, hi}, {.periodic = {true, true, true}});
-    }
-    template <class Store, class Box>
-    void place(Store& store, const Box& box, std::uint64_t n) const {
-        using real = typename simulation::real;
-        typename Box::real_position_type x{};
-        tsubu::vec<3, real> v{};
-        auto rest = n;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto signed_unit = [&](std::uint64_t c) {
-                return 2 * (static_cast<double>(tsubu::splitmix64(8 * n + c) >> 11) * 0x1p-53) - 1;
-            };
-            const double at = 2.0 * static_cast<double>(rest % this->per_edge) + 1 + .4 * signed_unit(k);
-            rest /= this->per_edge;
-            x[k] = static_cast<typename Box::real_type>(this->origin + std::nearbyint(at * 0x1p20) * 0x1p-20);
-            v[k] = static_cast<real>(signed_unit(3 + k));
-        }
-        const auto i = store.push_back(tsubu::id = this->first_id + static_cast<std::int64_t>(n),
-                                       simulation::quantities_type::velocity = v);
-        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
-    }
-};
-
 /// Velocities in the order of ids, after some collisions.
 template <class Number>
 std::vector<tsubu::vec<3>> velocities_of_gas(double origin, std::int64_t first_id) {
     tsubu::self_transport on;
-    exact_gas<Number> scene{};
+    exact_gas<hooke<>, Number> scene{};
     scene.law = hooke<>{{2e4}};
     scene.time_step = 1e-3;
     scene.per_edge = 4;

@@ -108,23 +108,33 @@ TEST_CASE("a neighbour is 4 to 4.5 bytes, a particle 8", "[neighbor][neighbor_li
 TEST_CASE("a neighbour list that cannot be built stays", "[neighbor][neighbor_list]") {
     auto x = near_points::scattered<3, double>(400, 3, 12);
     tsubu::neighbor_list list;
-    list.build(x, 100, tsubu::same_reach{0.5});
-    const auto before = sorted(list);
-    tsubu::neighbor_list other = list;
-    const auto needed = counted_memory::times_asked([&] { other.build(x, 400, tsubu::same_reach{2}); });
-    REQUIRE(needed > 5);
-    for (std::size_t given = 0; given < needed; ++given) {
-        counted_memory::granted = given;
-        bool has_thrown = false;
-        try {
-            list.build(x, 400, tsubu::same_reach{2});
-        } catch (const std::bad_alloc&) {
-            has_thrown = true;
+    const auto check_stays = [&](std::size_t owned, double reach) {
+        const auto before = sorted(list);
+        const auto total = list.total();
+        tsubu::neighbor_list other = list;
+        const auto needed = counted_memory::times_asked([&] { other.build(x, owned, tsubu::same_reach{reach}); });
+        REQUIRE(needed > 5);
+        for (std::size_t given = 0; given < needed; ++given) {
+            counted_memory::granted = given;
+            bool has_thrown = false;
+            try {
+                list.build(x, owned, tsubu::same_reach{reach});
+            } catch (const std::bad_alloc&) {
+                has_thrown = true;
+            }
+            counted_memory::granted = counted_memory::no_limit;
+            REQUIRE(has_thrown);
+            REQUIRE(is_same(list, before));
+            REQUIRE(list.total() == total);
         }
-        counted_memory::granted = counted_memory::no_limit;
-        REQUIRE(has_thrown);
-        REQUIRE(is_same(list, before));
-    }
+    };
+    list.build(x, 100, tsubu::same_reach{0.5});
+    check_stays(400, 2);
+    // Of few where there were many, what is found is copied in the end.
+    list.build(x, 400, tsubu::same_reach{2});
+    check_stays(100, 0.5);
+
+    const auto before = sorted(list);
     x[399][2] = std::numeric_limits<double>::quiet_NaN();
     const auto text = thrown<tsubu::input_error>([&] { list.build(x, 100, tsubu::same_reach{0.5}); });
     CHECK(says(text, "tsubu::neighbor_list::build: coordinate 2 of particle 399 is nan"));

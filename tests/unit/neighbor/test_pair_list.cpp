@@ -230,14 +230,14 @@ TEST_CASE("a list that finds no memory stays", "[neighbor][pair_list]") {
 
 // 2^32 pairs take 32 GiB: what counts them is tried with a lower limit.
 TEST_CASE("more neighbours than a list can number are refused before they are written", "[neighbor][pair_list]") {
-    tsubu::detail::growing<int> values(4, 10, "pair_list::build");
+    tsubu::detail::growing<int> values(4, 10, "pair_list::build", "pairs");
     for (int round = 0; round < 3; ++round) {
         auto* to = values.room(3);
         for (int k = 0; k < 3; ++k) *to++ = round;
         values.up_to(to);
     }
     const auto text = thrown<tsubu::limit_error>([&] { static_cast<void>(values.room(2)); });
-    CHECK(says(text, "tsubu::pair_list::build: more than 10 neighbours"));
+    CHECK(says(text, "tsubu::pair_list::build: more than 10 pairs on one rank"));
     values.up_to(values.room(1) + 1);
     CHECK(values.size() == 10);
     const auto all = values.take();

@@ -44,12 +44,12 @@ template <class Simulation>
             }
             for (auto k = Simulation::dimension; k < 3; ++k)
                 if (one.normal[k] != 0)
-                    tsubu::detail::raise<input_error>(
-                        "dem::walls",
-                        "the normal of wall " + std::to_string(result.size()) + " has a component " +
-                            tsubu::detail::shown(one.normal[k]) + " along axis " + std::to_string(k) + " of a scene in " +
-                            std::to_string(Simulation::dimension) + " dimensions",
-                        "give a normal in the dimensions of the scene");
+                    tsubu::detail::raise<input_error>("dem::walls",
+                                                      "the normal of wall " + std::to_string(result.size()) +
+                                                          " has a component " + tsubu::detail::shown(one.normal[k]) +
+                                                          " along axis " + std::to_string(k) + " of a scene in " +
+                                                          std::to_string(Simulation::dimension) + " dimensions",
+                                                      "give a normal in the dimensions of the scene");
             result.push_back(wall);
         }
     return result;
@@ -68,8 +68,8 @@ void check_particles(const typename Simulation::store_type& store) {
     constexpr auto D = Simulation::dimension;
     using quantities = typename Simulation::quantities_type;
     const auto refuse = [&](std::size_t i, const std::string& what, const char* remedy) {
-        tsubu::detail::raise<input_error>("dem::run::start", "particle " + std::to_string(store[tsubu::id][i]) + " has " + what,
-                                          remedy);
+        tsubu::detail::raise<input_error>("dem::run::start",
+                                          "particle " + std::to_string(store[tsubu::id][i]) + " has " + what, remedy);
     };
     for (std::size_t i = 0; i < store.owned_count(); ++i) {
         if (store[tsubu::id][i] < 0) refuse(i, "a negative id", "ids of particles are 0 or greater");
@@ -132,8 +132,9 @@ private:
         if (!(floor > 0)) return;
         const double energy = kinetic_energy(of_);
         if (has_been_at_rest && !(energy <= 10 * floor))
-            refuse(step, "a kinetic energy of " + tsubu::detail::shown(energy) + " J, after it was below the floor of " +
-                             tsubu::detail::shown(floor) + " J",
+            refuse(step,
+                   "a kinetic energy of " + tsubu::detail::shown(energy) + " J, after it was below the floor of " +
+                       tsubu::detail::shown(floor) + " J",
                    "take a smaller time step, if nothing else has set the scene in motion");
         has_been_at_rest = has_been_at_rest || energy <= floor;
     }
@@ -194,7 +195,8 @@ private:
     [[nodiscard]] double resolution(index_t i, std::size_t k) const {
         using coordinate = typename simulation::coordinate;
         if constexpr (simulation::quantities_type::has_offsets) {
-            return of_.box().along(k).length_of(1.0) * static_cast<double>(std::numeric_limits<typename simulation::real>::epsilon());
+            return of_.box().along(k).length_of(1.0) *
+                   static_cast<double>(std::numeric_limits<typename simulation::real>::epsilon());
         } else if constexpr (is_lattice<coordinate>) {
             return of_.box().along(k).length_of(1.0);
         } else {

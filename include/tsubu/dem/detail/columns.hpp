@@ -14,6 +14,9 @@
 
 namespace tsubu::dem::detail {
 
+/// The moment of inertia of a solid sphere is 2/5 m r^2.
+inline constexpr double sphere_inertia = 0.4;
+
 /// A wall in the dimensions of a scene.
 template <std::size_t D>
 struct wall_plane {

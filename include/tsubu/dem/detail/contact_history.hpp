@@ -22,9 +22,9 @@
 
 namespace tsubu::dem::detail {
 
-// While a list of neighbours holds, histories lie beside it, a row for each pair. Before particles move to other places or
-// ranks, each particle takes the histories of its contacts with it, with the ids of the partners; afterwards the ids are
-// looked up, and the histories laid beside the new list:
+// While a list of neighbours holds, histories lie beside it, a row for each pair. Before particles move to other places
+// or ranks, each particle takes the histories of its contacts with it, with the ids of the partners; afterwards the ids
+// are looked up, and the histories laid beside the new list:
 //
 //     pairs    (0, 4) (0, 7) (2, 4) ...        particle 0: [id of 4 | history] [id of 7 | history]
 //     history    *      .      *               particle 4: [id of 0 | -history] [id of 2 | -history]
@@ -133,7 +133,8 @@ public:
                     for (const auto p : by_first.of(i)) {
                         const auto j = pairs[p].j;
                         // A ghost may be another image than the one that was found.
-                        if (j != partner && (static_cast<std::size_t>(j) < store.owned_count() || ids[j] != one.partner))
+                        if (j != partner &&
+                            (static_cast<std::size_t>(j) < store.owned_count() || ids[j] != one.partner))
                             continue;
                         pairs_.touches[p] = 1;
                         pairs_.history[p] = one.history;

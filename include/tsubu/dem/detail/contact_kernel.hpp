@@ -27,9 +27,9 @@ namespace tsubu::dem::detail {
 using touch_state = std::uint8_t;
 
 // Of all neighbours some touch, which cannot be predicted: a first pass over a block finds them without a branch. A
-// second computes normals and overlaps, as many at a time as there are lanes, and a third lets the law act: in passes of
-// their own the roots and quotients of one contact do not wait for those of the one before. What is left over of a block
-// waits for the next.
+// second computes normals and overlaps, as many at a time as there are lanes, and a third lets the law act: in passes
+// of their own the roots and quotients of one contact do not wait for those of the one before. What is left over of a
+// block waits for the next.
 
 /// Finds who touches, and lets the law act.
 template <class Simulation>
@@ -226,10 +226,11 @@ private:
             act(meet, meet.find_shape(chosen(active)), active, waiting, touches, history);
         }
     }
-    // What the law will read and write: in scenes that outgrow the second-level cache, waiting for it took a sixth of the
-    // time. Of i it is there, since pairs follow each other by i.
+    // What the law will read and write: in scenes that outgrow the second-level cache, waiting for it took a sixth of
+    // the time. Of i it is there, since pairs follow each other by i.
     template <class Meeting>
-    [[gnu::always_inline]] void ask_for(const Meeting& meet, std::uint32_t which, history_type* history) const noexcept {
+    [[gnu::always_inline]] void ask_for(const Meeting& meet, std::uint32_t which,
+                                        history_type* history) const noexcept {
         if constexpr (history_size != 0) tsubu::detail::prefetch<true>(history + which);
         if constexpr (Meeting::has_partner) {
             const auto j = meet.second(which);

@@ -89,7 +89,8 @@ void solve_damping(Run& of, double half_step) {
         if (!(changes[0] > tolerance * changes[1] + least)) break;
         if (round == most_rounds)
             tsubu::detail::raise<input_error>("dem::implicit_velocity_verlet",
-                                              "damping that does not settle in " + std::to_string(most_rounds) + " rounds",
+                                              "damping that does not settle in " + std::to_string(most_rounds) +
+                                                  " rounds",
                                               "take a smaller time step, or velocity_verlet");
     }
     const auto f = store[quantities::force];

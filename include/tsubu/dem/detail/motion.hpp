@@ -23,11 +23,9 @@
 
 namespace tsubu::dem::detail {
 
-/// The moment of inertia of a solid sphere is 2/5 m r^2.
-inline constexpr double sphere_inertia = 0.4;
-
-// Velocities and forces are arrays of vectors, x y z x y z ...: a group of as many particles as a register has lanes is D
-// registers of each, whatever D. What each lane of them needs of its particle, or of its axis, is put together by place:
+// Velocities and forces are arrays of vectors, x y z x y z ...: a group of as many particles as a register has lanes is
+// D registers of each, whatever D. What each lane of them needs of its particle, or of its axis, is put together by
+// place:
 //
 //     register 0      1      2          lane l of register r: component c = r width + l of the group,
 //     [x0 y0] [z0 x1] [y1 z1]           particle c / D, axis c % D
@@ -81,6 +79,7 @@ public:
         }
         return a;
     }
+
 private:
     static constexpr bool drifts_in_lanes = std::is_same_v<coordinate, real>;
 
@@ -94,7 +93,8 @@ private:
         const double m = Simulation::bodies_type::are_equal ? static_cast<double>(of_.mass_of_all) : of_.mass[i];
         kick_factors by{duration / m, 0, {}};
         if constexpr (Simulation::turns) {
-            const double r = Simulation::bodies_type::are_equal ? static_cast<double>(of_.radius_of_all) : of_.radius[i];
+            const double r =
+                Simulation::bodies_type::are_equal ? static_cast<double>(of_.radius_of_all) : of_.radius[i];
             by.angular = duration / (sphere_inertia * m * r * r);
         }
         if constexpr (Simulation::has_gravity)

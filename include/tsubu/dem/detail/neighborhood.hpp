@@ -62,7 +62,9 @@ public:
 
     [[nodiscard]] const box_type& box() const noexcept { return parts_.whole(); }
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return pairs_.pairs(); }
-    [[nodiscard]] std::span<const index_pair> near_walls() const noexcept { return {near_walls_.data(), near_walls_.size()}; }
+    [[nodiscard]] std::span<const index_pair> near_walls() const noexcept {
+        return {near_walls_.data(), near_walls_.size()};
+    }
     [[nodiscard]] std::span<const wall_plane<D>> walls() const noexcept { return {walls_.data(), walls_.size()}; }
     [[nodiscard]] std::span<const placed_spring> springs() const noexcept { return {springs_.data(), springs_.size()}; }
     [[nodiscard]] contact_history<Simulation>& history() noexcept { return history_; }
@@ -105,7 +107,8 @@ public:
         migrate(store, parts_, *on_, refuse_lost{}, carried);
         if (how_.sort_every != 0 && renewals_ % how_.sort_every == 0)
             store.permute(order_along(hilbert_curve{}, box(), store.owned()[Simulation::quantities_type::position]));
-        halo_ = make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
+        halo_ =
+            make_halo(store, parts_, static_cast<typename box_type::real_type>(cutoff(store) + widest_cell()), *on_);
         agreement<> all(on_->rank());
         all.attempt([&] {
             if constexpr (Simulation::has_contacts) {
@@ -152,8 +155,8 @@ private:
                 if (const auto& along = box().real_axis(k); along.is_periodic() && !(along.length() > 2 * needed))
                     tsubu::detail::raise<input_error>(
                         "dem::run",
-                        "a periodic box of " + tsubu::detail::shown(along.length()) + " m along axis " + std::to_string(k) +
-                            ", and neighbours up to " + tsubu::detail::shown(needed) + " m",
+                        "a periodic box of " + tsubu::detail::shown(along.length()) + " m along axis " +
+                            std::to_string(k) + ", and neighbours up to " + tsubu::detail::shown(needed) + " m",
                         "take a box of more than twice that: it would not be known which image of a particle is "
                         "meant");
         if (how_.cutoff == 0) return needed;
@@ -233,7 +236,8 @@ private:
                                                           std::to_string(spring_kinds_) + " kinds of springs",
                                                       "give a spring for each type of bond");
                 const auto here = static_cast<index_t>(i);
-                springs_.push_back({here, places[0] == here ? places[1] : places[0], static_cast<index_t>(one.type - 1)});
+                springs_.push_back(
+                    {here, places[0] == here ? places[1] : places[0], static_cast<index_t>(one.type - 1)});
             }
     }
 

@@ -9,7 +9,6 @@
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
 #include <tsubu/dem/walls.hpp>
-#include <tsubu/store/standard_fields.hpp>
 
 #include <cstdint>  // std::uint64_t
 #include <tuple>    // std::tuple
@@ -24,13 +23,13 @@ struct bounce_scene {
     using simulation = dem::simulation<1, Number, Integrator, Law, walls, gravity>;
 
     Law law;
-    double time_step;             ///< [s]
-    double height = 0.5;          ///< of the centre at the beginning [m]
-    double radius = 0.2;          ///< [m]
-    double mass = 1;              ///< [kg]
-    double acceleration = 9.81;   ///< [m/s^2]
+    double time_step;            ///< [s]
+    double height = 0.5;         ///< of the centre at the beginning [m]
+    double radius = 0.2;         ///< [m]
+    double mass = 1;             ///< [kg]
+    double acceleration = 9.81;  ///< [m/s^2]
 
-    [[nodiscard]] auto box() const { return typename simulation::box_type({-height}, {3 * height}); }
+    [[nodiscard]] auto box() const { return scene_box<simulation>({-height}, {3 * height}); }
     [[nodiscard]] options how() const { return {.time_step = time_step, .skin = radius}; }
     [[nodiscard]] auto models() const {
         return std::tuple(law, walls{{{.point = {0}, .normal = {1}}}}, gravity{{-acceleration}},
@@ -38,8 +37,8 @@ struct bounce_scene {
     }
     [[nodiscard]] static std::uint64_t count() noexcept { return 1; }
     template <class Store, class Box>
-    void place(Store& store, const Box&, std::uint64_t) const {
-        store.push_back(tsubu::id = 1, simulation::quantities_type::position = {height});
+    void place(Store& store, const Box& box, std::uint64_t) const {
+        add_particle<simulation>(store, box, 1, {height});
     }
 };
 

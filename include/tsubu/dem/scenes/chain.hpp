@@ -3,7 +3,6 @@
 /// Masses on springs, between fixed ends.
 #pragma once
 
-#include <tsubu/core/vec.hpp>
 #include <tsubu/dem/references.hpp>
 #include <tsubu/dem/simulation.hpp>
 #include <tsubu/dem/spheres.hpp>
@@ -27,16 +26,16 @@ template <class Integrator = velocity_verlet, class Number = double>
 struct chain_scene {
     using simulation = dem::simulation<1, Number, Integrator, springs, spheres>;
 
-    double time_step;             ///< [s]
-    std::uint64_t masses = 64;    ///< that move
-    std::uint64_t mode = 1;       ///< 1 .. masses
-    double amplitude = 1e-3;      ///< [m]
-    double k = 1;                 ///< [N/m]
-    double mass = 1;              ///< [kg]
-    double spacing = 1;           ///< [m]
+    double time_step;           ///< [s]
+    std::uint64_t masses = 64;  ///< that move
+    std::uint64_t mode = 1;     ///< 1 .. masses
+    double amplitude = 1e-3;    ///< [m]
+    double k = 1;               ///< [N/m]
+    double mass = 1;            ///< [kg]
+    double spacing = 1;         ///< [m]
 
     [[nodiscard]] auto box() const {
-        return typename simulation::box_type({-spacing}, {spacing * static_cast<double>(masses + 2)});
+        return scene_box<simulation>({-spacing}, {spacing * static_cast<double>(masses + 2)});
     }
     [[nodiscard]] options how() const {
         return {.time_step = time_step, .skin = spacing / 2, .cutoff = 2 * spacing, .guard = no_guards};
@@ -48,17 +47,14 @@ struct chain_scene {
         return std::sin(static_cast<double>(mode * n) * pi / static_cast<double>(masses + 1));
     }
     template <class Store, class Box>
-    void place(Store& store, const Box&, std::uint64_t n) const {
+    void place(Store& store, const Box& box, std::uint64_t n) const {
         const bool is_end = n == 0 || n == masses + 1;
         const double moved = is_end ? 0 : amplitude * shape(n);
-        const auto i = store.push_back(
-            tsubu::id = static_cast<std::int64_t>(n),
-            simulation::quantities_type::position = {static_cast<typename simulation::coordinate>(
-                spacing * static_cast<double>(n) + moved)},
-            tsubu::radius = spacing / 4,
-            tsubu::mass = is_end ? std::numeric_limits<double>::infinity() : mass);
-        const auto bonds = store[tsubu::bonds][i];
         const auto id = static_cast<std::int64_t>(n);
+        const auto i = add_particle<simulation>(store, box, id, {spacing * static_cast<double>(n) + moved});
+        store[tsubu::radius][i] = spacing / 4;
+        store[tsubu::mass][i] = is_end ? std::numeric_limits<double>::infinity() : mass;
+        const auto bonds = store[tsubu::bonds][i];
         if (n > 0) bonds.push_back({.type = 1, .ids = {id - 1, id}});
         if (n <= masses) bonds.push_back({.type = 1, .ids = {id, id + 1}});
     }

@@ -10,8 +10,8 @@
 #include <tsubu/dem/simulation.hpp>
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
-#include <tsubu/store/standard_fields.hpp>
 
+#include <array>    // std::array
 #include <cmath>    // std::cbrt, std::sqrt
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::int64_t, std::uint64_t
@@ -28,16 +28,16 @@ struct gas_scene {
     using simulation = dem::simulation<D, Number, Integrator, Law>;
 
     Law law;
-    double time_step;                   ///< [s]
-    std::uint64_t per_edge = 22;        ///< particles along each edge
-    double fraction = 0.05;             ///< of the volume (in 2-D of the area) that is filled; above .065 (in 2-D .196)
-                                        ///< some overlap at the beginning
-    double skin = 0.3;                  ///< [m]
-    double radius = 0.5;                ///< [m]
-    double mass = 1;                    ///< [kg]
-    double origin = 0;                  ///< the lower face of the box along each axis [m]
+    double time_step;             ///< [s]
+    std::uint64_t per_edge = 22;  ///< particles along each edge
+    double fraction = 0.05;       ///< of the volume (in 2-D of the area) that is filled; above .065 (in 2-D .196)
+                                  ///< some overlap at the beginning
+    double skin = 0.3;            ///< [m]
+    double radius = 0.5;          ///< [m]
+    double mass = 1;              ///< [kg]
+    double origin = 0;            ///< the lower face of the box along each axis [m]
     std::int64_t first_id = 1;
-    bool is_watched = true;             ///< whether a time step past the limit, and coordinates that freeze, are refused
+    bool is_watched = true;  ///< whether a time step past the limit, and coordinates that freeze, are refused
 
     /// The distance of neighbours on the grid [m].
     [[nodiscard]] double spacing() const noexcept {
@@ -47,17 +47,13 @@ struct gas_scene {
         return d / fraction;
     }
     [[nodiscard]] auto box() const {
-        using box_type = typename simulation::box_type;
-        typename box_type::real_position_type lo{};
-        typename box_type::real_position_type hi{};
-        typename box_type::options with{};
-        for (std::size_t k = 0; k < D; ++k) {
-            using number = typename box_type::real_type;
-            lo[k] = static_cast<number>(origin);
-            hi[k] = static_cast<number>(origin + spacing() * static_cast<double>(per_edge));
-            with.periodic[k] = true;
-        }
-        return box_type(lo, hi, with);
+        vec<D> lo{};
+        vec<D> hi{};
+        std::array<bool, D> periodic{};
+        lo.fill(origin);
+        hi.fill(origin + spacing() * static_cast<double>(per_edge));
+        periodic.fill(true);
+        return scene_box<simulation>(lo, hi, periodic);
     }
     [[nodiscard]] options how() const {
         return {.time_step = time_step, .skin = skin, .guard = is_watched ? guards{} : no_guards};
@@ -70,9 +66,8 @@ struct gas_scene {
     }
     template <class Store, class Box>
     void place(Store& store, const Box& box, std::uint64_t n) const {
-        using real = typename simulation::real;
-        typename Box::real_position_type x{};
-        vec<D, real> v{};
+        vec<D> x{};
+        vec<D> v{};
         auto rest = n;
         for (std::size_t k = 0; k < D; ++k) {
             // 2 u - 1 with 53 random bits of particle and component
@@ -81,13 +76,10 @@ struct gas_scene {
             };
             const double cell = static_cast<double>(rest % per_edge);
             rest /= per_edge;
-            x[k] = static_cast<typename Box::real_type>(
-                origin + ((cell + 0.5) * spacing() + 0.25 * spacing() * signed_unit(k)));
-            v[k] = static_cast<real>(std::sqrt(3.0) * signed_unit(3 + k));
+            x[k] = origin + ((cell + 0.5) * spacing() + 0.25 * spacing() * signed_unit(k));
+            v[k] = std::sqrt(3.0) * signed_unit(3 + k);
         }
-        const auto i = store.push_back(tsubu::id = first_id + static_cast<std::int64_t>(n),
-                                       simulation::quantities_type::velocity = v);
-        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
+        add_particle<simulation>(store, box, first_id + static_cast<std::int64_t>(n), x, v);
     }
 };
 

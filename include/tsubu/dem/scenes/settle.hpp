@@ -11,13 +11,12 @@
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
 #include <tsubu/dem/walls.hpp>
-#include <tsubu/domain/lattice.hpp>
-#include <tsubu/store/standard_fields.hpp>
 
-#include <array>    // std::array
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::int64_t, std::uint64_t
-#include <tuple>    // std::tuple
+#include <array>        // std::array
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int64_t, std::uint64_t
+#include <tuple>        // std::tuple
+#include <type_traits>  // std::is_same_v
 
 namespace tsubu::dem {
 
@@ -30,10 +29,10 @@ struct settle_scene {
     using simulation = dem::simulation<3, Number, Integrator, Law, walls, gravity>;
 
     Law law = default_law();
-    double time_step = 2e-4;                        ///< [s]
+    double time_step = 2e-4;                         ///< [s]
     std::array<std::uint64_t, 3> cells{20, 20, 25};  ///< particles along x, y, z at the beginning
-    double skin = 0.1;                              ///< [m]
-    bool is_watched = true;                         ///< whether guards watch
+    double skin = 0.1;                               ///< [m]
+    bool is_watched = true;                          ///< whether guards watch
 
     static constexpr double spacing = 1.2;  ///< [m]
 
@@ -47,19 +46,13 @@ struct settle_scene {
             return Law{};
     }
     [[nodiscard]] auto box() const {
-        using box_type = typename simulation::box_type;
-        using number = typename box_type::real_type;
-        const double height = spacing * static_cast<double>(cells[2]) + 2;
-        // A lattice is periodic along z too: nothing reaches its upper face.
-        return box_type({0, 0, static_cast<number>(-1)},
-                        {static_cast<number>(spacing * static_cast<double>(cells[0])),
-                         static_cast<number>(spacing * static_cast<double>(cells[1])), static_cast<number>(height)},
-                        {.periodic = {true, true, is_lattice<typename simulation::coordinate>}});
+        return scene_box<simulation>({0, 0, -1},
+                                     {spacing * static_cast<double>(cells[0]), spacing * static_cast<double>(cells[1]),
+                                      spacing * static_cast<double>(cells[2]) + 2},
+                                     {true, true, false});
     }
     [[nodiscard]] options how() const {
-        return {.time_step = time_step,
-                .skin = skin,
-                .guard = is_watched ? guards{} : no_guards};
+        return {.time_step = time_step, .skin = skin, .guard = is_watched ? guards{} : no_guards};
     }
     [[nodiscard]] auto models() const {
         return std::tuple(law, walls{{{.point = {0, 0, 0}, .normal = {0, 0, 1}}}}, gravity{{0, 0, -1}},
@@ -68,22 +61,18 @@ struct settle_scene {
     [[nodiscard]] std::uint64_t count() const noexcept { return cells[0] * cells[1] * cells[2]; }
     template <class Store, class Box>
     void place(Store& store, const Box& box, std::uint64_t n) const {
-        using real = typename simulation::real;
         const auto id = n + 1;
         const std::uint64_t cell[3] = {n % cells[0], n / cells[0] % cells[1], n / cells[0] / cells[1]};
-        typename Box::real_position_type x{};
-        vec<3, real> v{};
+        vec<3> x{};
+        vec<3> v{};
         for (std::size_t k = 0; k < 3; ++k) {
             const auto signed_unit = [&](std::size_t c) {
                 return 2 * (static_cast<double>(splitmix64(12345 + 8 * id + c) >> 11) * 0x1p-53) - 1;
             };
-            x[k] = static_cast<typename Box::real_type>((static_cast<double>(cell[k]) + 0.5) * spacing +
-                                                        0.08 * signed_unit(k));
-            v[k] = static_cast<real>(0.5 * signed_unit(3 + k));
+            x[k] = (static_cast<double>(cell[k]) + 0.5) * spacing + 0.08 * signed_unit(k);
+            v[k] = 0.5 * signed_unit(3 + k);
         }
-        const auto i = store.push_back(tsubu::id = static_cast<std::int64_t>(id),
-                                       simulation::quantities_type::velocity = v);
-        put<typename simulation::quantities_type>(store, static_cast<std::size_t>(i), box, x);
+        add_particle<simulation>(store, box, static_cast<std::int64_t>(id), x, v);
     }
 };
 

@@ -9,7 +9,6 @@
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
 #include <tsubu/dem/walls.hpp>
-#include <tsubu/store/standard_fields.hpp>
 
 #include <cmath>    // std::cos, std::sin
 #include <cstdint>  // std::uint64_t
@@ -17,8 +16,8 @@
 
 namespace tsubu::dem {
 
-/// A sphere (a disk's motion with a sphere's inertia) that hits a floor at an angle: two dimensions, rotation, friction,
-/// one wall, no gravity.
+/// A sphere (a disk's motion with a sphere's inertia) that hits a floor at an angle: two dimensions, rotation,
+/// friction, one wall, no gravity.
 ///
 /// Reference: oblique_impact; Chung & Ooi 2011, doi:10.1007/s10035-011-0277-0.
 template <class Law = hooke<linear_history>, class Integrator = velocity_verlet, class Number = double>
@@ -26,15 +25,15 @@ struct oblique_scene {
     using simulation = dem::simulation<2, Number, Integrator, Law, walls>;
 
     Law law;
-    double time_step;           ///< [s]
-    double normal_speed = 1;    ///< towards the floor [m/s]
-    double along_speed = 1;     ///< along it [m/s]
-    double radius = 0.5;        ///< [m]
-    double mass = 1;            ///< [kg]
-    double phase = 0.5;         ///< share of a step from the beginning to the touch
+    double time_step;         ///< [s]
+    double normal_speed = 1;  ///< towards the floor [m/s]
+    double along_speed = 1;   ///< along it [m/s]
+    double radius = 0.5;      ///< [m]
+    double mass = 1;          ///< [kg]
+    double phase = 0.5;       ///< share of a step from the beginning to the touch
 
     [[nodiscard]] auto box() const {
-        return typename simulation::box_type({-100 * radius, -2 * radius}, {100 * radius, 10 * radius});
+        return scene_box<simulation>({-100 * radius, -2 * radius}, {100 * radius, 10 * radius});
     }
     [[nodiscard]] options how() const { return {.time_step = time_step, .skin = radius}; }
     [[nodiscard]] auto models() const {
@@ -42,17 +41,14 @@ struct oblique_scene {
     }
     [[nodiscard]] static std::uint64_t count() noexcept { return 1; }
     template <class Store, class Box>
-    void place(Store& store, const Box&, std::uint64_t) const {
-        using real = typename simulation::real;
-        store.push_back(tsubu::id = 1,
-                        simulation::quantities_type::position = {0, radius + normal_speed * time_step * phase},
-                        simulation::quantities_type::velocity = {static_cast<real>(along_speed),
-                                                                 static_cast<real>(-normal_speed)});
+    void place(Store& store, const Box& box, std::uint64_t) const {
+        add_particle<simulation>(store, box, 1, {0, radius + normal_speed * time_step * phase},
+                                 {along_speed, -normal_speed});
     }
 };
 
-/// A sphere on a floor under gravity, which may be a slope: it begins at rest or sliding, pressed in as far as its weight
-/// presses it.
+/// A sphere on a floor under gravity, which may be a slope: it begins at rest or sliding, pressed in as far as its
+/// weight presses it.
 ///
 /// Reference: slip_to_roll; on a slope a creep of g sin(theta) / gamma_t without memory, rest with.
 template <class Law = hooke_dashpot<coulomb>, class Integrator = velocity_verlet, class Number = double>
@@ -69,7 +65,7 @@ struct floor_scene {
     double mass = 1;             ///< [kg]
 
     [[nodiscard]] auto box() const {
-        return typename simulation::box_type({-1000 * radius, -2 * radius}, {1000 * radius, 10 * radius});
+        return scene_box<simulation>({-1000 * radius, -2 * radius}, {1000 * radius, 10 * radius});
     }
     [[nodiscard]] options how() const { return {.time_step = time_step, .skin = radius}; }
     [[nodiscard]] auto models() const {
@@ -79,11 +75,9 @@ struct floor_scene {
     }
     [[nodiscard]] static std::uint64_t count() noexcept { return 1; }
     template <class Store, class Box>
-    void place(Store& store, const Box&, std::uint64_t) const {
-        using real = typename simulation::real;
+    void place(Store& store, const Box& box, std::uint64_t) const {
         const double pressed = mass * acceleration * std::cos(slope) / stiffness;
-        store.push_back(tsubu::id = 1, simulation::quantities_type::position = {0, radius - pressed},
-                        simulation::quantities_type::velocity = {static_cast<real>(speed), real(0)});
+        add_particle<simulation>(store, box, 1, {0, radius - pressed}, {speed, 0});
     }
 };
 

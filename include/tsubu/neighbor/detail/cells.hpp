@@ -12,6 +12,7 @@
 #include <tsubu/domain/interval.hpp>
 #include <tsubu/neighbor/detail/list_checks.hpp>
 #include <tsubu/neighbor/detail/stencil_points.hpp>
+#include <tsubu/neighbor/positions.hpp>
 
 #include <algorithm>  // std::fill, std::max, std::min
 #include <array>      // std::array

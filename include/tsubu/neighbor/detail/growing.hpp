@@ -17,9 +17,9 @@ template <class Value>
 class growing {
 public:
     /// @param limit  how many there may be
-    /// @param where  for the message if they are more
-    growing(std::size_t guess, std::size_t limit, const char* where)
-        : values_((std::min)(guess, limit), {}), limit_(limit), where_(where) {}
+    /// @param where, what  for the message if they are more
+    growing(std::size_t guess, std::size_t limit, const char* where, const char* what)
+        : values_((std::min)(guess, limit), {}), limit_(limit), where_(where), what_(what) {}
 
     /// Where to write up to `most` values. @throws limit_error if there may be more than the limit then.
     [[nodiscard, gnu::always_inline]] Value* room(std::size_t most) {
@@ -44,7 +44,7 @@ public:
 private:
     [[gnu::noinline]] void grow(std::size_t most) {
         if (limit_ - count_ < most)
-            raise<limit_error>(where_, "more than " + std::to_string(limit_) + " neighbours on one rank",
+            raise<limit_error>(where_, "more than " + std::to_string(limit_) + " " + what_ + " on one rank",
                                "take more ranks, or a shorter cutoff or skin");
         buffer<Value> larger((std::min)(values_.size() + values_.size() / 2 + most, limit_), {});
         if (count_ != 0) std::copy_n(values_.data(), count_, larger.data());
@@ -55,6 +55,7 @@ private:
     std::size_t count_ = 0;
     std::size_t limit_;
     const char* where_;
+    const char* what_;
 };
 
 /// How much room to begin with, where `last` values were found the time before.

@@ -129,8 +129,8 @@ concept normal_law = std::semiregular<Law> && detail::normal_law_of<Law, double>
 ///  3. without history it does not drive the slip, and without slip there is none;
 ///  4. history [history_size<D>] is 0 when a contact begins, and changes with the way alone: asked again after no time,
 ///     the law answers the same;
-///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite, exactly:
-///     across a border between ranks each computes its own side;
+///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite,
+///     exactly: across a border between ranks each computes its own side;
 ///  6. lanes of numbers have the same results as the numbers, bit for bit;
 ///  7. viscosity(m*, damping) is the force per slip without history and below the limit [N s/m]: it limits the time step
 ///     (longest_time_step).

@@ -6,9 +6,9 @@
 #include "bed.hpp"
 #include "plan.hpp"
 
-#include <tsubu/dem/cohesion.hpp>
+#include <tsubu/dem/laws/dmt_cohesion.hpp>
+#include <tsubu/dem/laws/rolling_resistance.hpp>
 #include <tsubu/dem/references.hpp>
-#include <tsubu/dem/rolling_resistance.hpp>
 #include <tsubu/dem/scenes/settle.hpp>
 #include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/lammps_reader.hpp>

@@ -41,7 +41,7 @@ struct wrong_energy : hooke_normal {
 struct softening : hooke_normal {
     template <class Real>
     [[nodiscard]] Real elastic(const Real& overlap, const Real&) const noexcept {
-        return -(overlap * Real(k));
+        return -(overlap * constant<Real>(k));
     }
 };
 struct driving : hooke_dashpot_normal {
@@ -61,6 +61,13 @@ struct other_in_lanes : hooke_normal {
     [[nodiscard]] tsubu::lanes<double> elastic(const tsubu::lanes<double>& overlap,
                                                const tsubu::lanes<double>&) const noexcept {
         return overlap * tsubu::lanes<double>(k) * tsubu::lanes<double>(1 + 0x1p-50);
+    }
+};
+struct other_stiffness_in_lanes : hertz_normal {
+    using hertz_normal::stiffness;
+    [[nodiscard]] tsubu::lanes<float> stiffness(const tsubu::lanes<float>& overlap,
+                                                const tsubu::lanes<float>&) const noexcept {
+        return overlap;
     }
 };
 
@@ -87,4 +94,5 @@ TEST_CASE("a normal law that breaks one is caught", "[dem][conformance]") {
     CHECK(judged(driving{{1e3, 5}}).broken.count("law 2") == 1);
     CHECK(judged(secretly_damped{{1e3}}).broken.count("law 2") == 1);
     CHECK(judged(other_in_lanes{{1e3}}).broken.count("law 3") == 1);
+    CHECK(judged(other_stiffness_in_lanes{{1e3}}).broken.count("law 3") == 1);
 }

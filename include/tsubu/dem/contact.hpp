@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// contact: two bodies that overlap, as the laws see them; and the tables of the laws.
-///
-/// | normal law           | force                                  | order of e | choose it when                            |
-/// |----------------------|----------------------------------------|------------|-------------------------------------------|
-/// | hooke_normal         | k d                                    | 2          | the time step is to be as long as can be  |
-/// | hooke_dashpot_normal | k d - gamma m* v                       | 1          | bulk flow with a constant restitution     |
-/// | hertz_normal         | 4/3 E* sqrt(R*) d^(3/2)                | 2.5        | single impacts, waves                     |
-/// | hertz_dashpot_normal | a (4/3 E* d - gamma m* v)              | 1 (1.5)    | to compare with LAMMPS' gran/hertz        |
-/// | hertz_tsuji_normal   | that of Hertz - alpha sqrt(m* K) d^(1/4) v | 1 (1.25) | elastic spheres with a constant restitution |
-///
-/// The order is that in which the error of the restitution falls with the time step of velocity_verlet; in brackets with
-/// implicit_velocity_verlet, whose damping does not see the velocities of the half step.
-///
-/// | tangential law  | remembers  | choose it when                                                     |
-/// |-----------------|------------|--------------------------------------------------------------------|
-/// | frictionless    | nothing    | there is no rotation                                               |
-/// | coulomb         | nothing    | everything slides: dilute, rapid flow; a heap creeps with it       |
-/// | linear_history  | a spring   | beds and heaps of Hookean spheres, which are to come to rest       |
-/// | mindlin_history | a spring   | the same of Hertzian spheres                                       |
-///
-/// Besides: without_attraction (a damped contact never pulls), rolling_resistance, dmt_cohesion.
+/// contact: two bodies that overlap, as the laws see them.
 #pragma once
 
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/vector_algebra.hpp>
 
-#include <cstddef>   // std::size_t
-#include <concepts>  // std::convertible_to, std::same_as
+#include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
 
@@ -37,7 +17,7 @@ namespace tsubu::dem {
 /// @tparam Real  a number, or lanes of numbers: laws are written for either.
 template <std::size_t D, class Real>
 struct contact {
-    static constexpr std::size_t spins = D == 3 ? 3 : D == 2 ? 1 : 0;
+    static constexpr std::size_t spins = spin_count<D>;
 
     Real overlap;              ///< R_i + R_j - r, positive [m]
     Real mass;                 ///< effective: m_i m_j / (m_i + m_j) [kg]
@@ -49,24 +29,16 @@ struct contact {
     vec<spins, Real> turning;  ///< omega_i - omega_j [rad/s]
 };
 
-/// What a part of a contact law stands for.
-enum class contact_role { tangential, rolling, cohesion, release };
+/// The velocity of i's surface relative to j's, along the surface [m/s].
+template <std::size_t D, class Real>
+[[nodiscard, gnu::always_inline]] inline vec<D, Real> slip_of(const contact<D, Real>& at) noexcept {
+    return minus<D, Real>(tangential<D, Real>(at.velocity, at.normal), spin_across(at.sliding, at.normal));
+}
 
-/// The force along the normal.
-///  1. elastic(d, R*) is 0 at d = 0 and does not fall; stiffness is its derivative, energy its integral;
-///  2. damping(d, m*, R*) is not negative, and 0 if is_damped is false: the force is elastic - damping v, v the velocity of
-///     separation;
-///  3. lanes of numbers have the same results as the numbers, bit for bit.
-/// is_hertzian: the contact widens as sqrt(R* d), and so do its other springs.
-template <class Law>
-concept normal_law = requires(const Law& law, double number) {
-    { Law::is_damped } -> std::convertible_to<bool>;
-    { Law::is_hertzian } -> std::convertible_to<bool>;
-    { law.elastic(number, number) } -> std::same_as<double>;
-    { law.stiffness(number, number) } -> std::same_as<double>;
-    { law.energy(number, number) } -> std::same_as<double>;
-    { law.damping(number, number, number) } -> std::same_as<double>;
-    law.check();
-};
+/// A parameter of a law in the numbers that the law is asked in: in each of the lanes the same.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline Real constant(double value) noexcept {
+    return Real(static_cast<number_of<Real>>(value));
+}
 
 }  // namespace tsubu::dem

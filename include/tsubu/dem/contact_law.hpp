@@ -3,14 +3,29 @@
 /// contact_law: a normal law and what goes with it: friction, rolling, cohesion.
 #pragma once
 
+#include <tsubu/core/error.hpp>
 #include <tsubu/core/lanes.hpp>
+#include <tsubu/core/shown.hpp>
+#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
-#include <tsubu/dem/cohesion.hpp>
 #include <tsubu/dem/contact.hpp>
+#include <tsubu/dem/laws/cohesionless.hpp>
+#include <tsubu/dem/laws/concepts.hpp>
+#include <tsubu/dem/laws/coulomb.hpp>
+#include <tsubu/dem/laws/dmt_cohesion.hpp>
+#include <tsubu/dem/laws/free_rolling.hpp>
+#include <tsubu/dem/laws/frictionless.hpp>
+#include <tsubu/dem/laws/hertz_dashpot_normal.hpp>
+#include <tsubu/dem/laws/hertz_normal.hpp>
+#include <tsubu/dem/laws/hertz_tsuji_normal.hpp>
+#include <tsubu/dem/laws/hooke_dashpot_normal.hpp>
+#include <tsubu/dem/laws/hooke_normal.hpp>
+#include <tsubu/dem/laws/linear_history.hpp>
+#include <tsubu/dem/laws/mindlin_history.hpp>
+#include <tsubu/dem/laws/rolling_resistance.hpp>
+#include <tsubu/dem/laws/until_separation.hpp>
+#include <tsubu/dem/laws/without_attraction.hpp>
 #include <tsubu/dem/model.hpp>
-#include <tsubu/dem/normal_laws.hpp>
-#include <tsubu/dem/rolling_resistance.hpp>
-#include <tsubu/dem/tangential_laws.hpp>
 #include <tsubu/dem/vector_algebra.hpp>
 #include <tsubu/store/field.hpp>
 
@@ -20,6 +35,13 @@
 namespace tsubu::dem {
 namespace detail {
 
+/// Whether it plays this role; what is no part of a contact law at all plays none.
+template <contact_role Role, class Part>
+inline constexpr bool has_role = false;
+template <contact_role Role, class Part>
+    requires requires { requires Part::role == Role; }
+inline constexpr bool has_role<Role, Part> = true;
+
 /// The part that plays a role, or what stands for it where none is given.
 template <contact_role Role, class Default, class... Parts>
 struct part_for {
@@ -27,24 +49,43 @@ struct part_for {
 };
 template <contact_role Role, class Default, class First, class... Rest>
 struct part_for<Role, Default, First, Rest...> {
-    using type = typename std::conditional_t<First::role == Role, part_for<Role, First>,
+    using type = typename std::conditional_t<has_role<Role, First>, part_for<Role, First>,
                                              part_for<Role, Default, Rest...>>::type;
 };
 template <contact_role Role, class... Parts>
-inline constexpr std::size_t parts_for = (std::size_t{0} + ... + (Parts::role == Role ? 1U : 0U));
+inline constexpr std::size_t parts_for = (std::size_t{0} + ... + (has_role<Role, Parts> ? 1U : 0U));
+
+/// Refuses what is no part; asked of one at a time, and of its role alone, so that the compiler says which and why.
+template <class Part>
+consteval bool is_part() {
+    if constexpr (has_role<contact_role::tangential, Part>)
+        static_assert(tangential_law<Part>, "this law of friction lacks what the concept tangential_law asks for");
+    else if constexpr (has_role<contact_role::rolling, Part>)
+        static_assert(rolling_law<Part>, "this law of rolling lacks what the concept rolling_law asks for");
+    else if constexpr (has_role<contact_role::cohesion, Part>)
+        static_assert(cohesion_law<Part>, "this law of cohesion lacks what the concept cohesion_law asks for");
+    else
+        static_assert(contact_part<Part>,
+                      "this is no part of a contact law: a law of friction, of rolling, of cohesion or of release is");
+    return true;
+}
 
 }  // namespace detail
 
-/// What a contact does to i; to j it does the opposite, but for the torque of the tangential force, which has j's radius
-/// as its arm.
+/// What a contact does to i; to j it does the opposite, but for the torque of the tangential force, which has j's
+/// radius as its arm.
 template <std::size_t D, class Real>
 struct contact_action {
-    vec<D, Real> force;                           ///< on i [N]
-    vec<contact<D, Real>::spins, Real> twist;     ///< normal x tangential force: -R_i twist is the torque on i [N]
-    vec<contact<D, Real>::spins, Real> rolling;   ///< torque against rolling on i [N m]
+    vec<D, Real> force;                ///< on i [N]
+    vec<spin_count<D>, Real> twist;    ///< normal x tangential force: -R_i twist is the torque on i [N]
+    vec<spin_count<D>, Real> rolling;  ///< torque against rolling on i [N m]
 };
 
 /// How two bodies that overlap act on each other: a normal law and its parts, each at most once, in any order.
+///
+/// Friction and rolling resistance are limited by the force of the normal law alone, repulsion and dashpot: cohesion is
+/// subtracted from the force that bodies feel, not from what presses their surfaces together. So |F_t| <= mu |F + pull|,
+/// F the force along the normal that is measured from outside. (LAMMPS' pair_style granular adds the pull once more.)
 ///
 ///     using glass = tsubu::dem::hertz<tsubu::dem::mindlin_history>;
 ///     glass law{{.modulus = 2.5e10}, {.shear_modulus = 1.1e10, .mu = 0.3}};
@@ -53,12 +94,14 @@ struct contact_action {
 /// Writes: force; torque if it turns; what contacts remember.
 ///
 /// @tparam Normal  a normal_law
-/// @tparam Parts   frictionless (default), coulomb, linear_history or mindlin_history; free_rolling (default) or
-///                 rolling_resistance; cohesionless (default) or dmt_cohesion; until_separation (default) or
-///                 without_attraction
+/// @tparam Parts   each a contact_part: frictionless (default), coulomb, linear_history or mindlin_history;
+///                 free_rolling (default) or rolling_resistance; cohesionless (default) or dmt_cohesion;
+///                 until_separation (default) or without_attraction
 template <normal_law Normal, class... Parts>
 class contact_law {
-    static_assert(detail::parts_for<contact_role::tangential, Parts...> <= 1, "two laws of friction in one contact law");
+    static_assert((detail::is_part<Parts>() && ...));
+    static_assert(detail::parts_for<contact_role::tangential, Parts...> <= 1,
+                  "two laws of friction in one contact law");
     static_assert(detail::parts_for<contact_role::rolling, Parts...> <= 1, "two laws of rolling in one contact law");
     static_assert(detail::parts_for<contact_role::cohesion, Parts...> <= 1, "two laws of cohesion in one contact law");
     static_assert(detail::parts_for<contact_role::release, Parts...> <= 1, "two ends of one contact");
@@ -90,7 +133,8 @@ public:
     static constexpr bool needs_velocity = Normal::is_damped || turns;
     /// Whether what a contact does depends on its past, and how many numbers hold that.
     template <std::size_t D>
-    static constexpr std::size_t history_size = tangential_type::template history_size<D> + rolling_type::template history_size<D>;
+    static constexpr std::size_t history_size =
+        tangential_type::template history_size<D> + rolling_type::template history_size<D>;
 
     template <class Q>
     using partner_reads = union_of<typename Q::place_fields,
@@ -98,7 +142,7 @@ public:
                                             std::conditional_t<turns, fields<Q::angular_velocity>, fields<>>>>;
     template <class Q>
     using history = std::conditional_t<history_size<Q::dimension> != 0,
-                                         fields<Q::template contacts<history_size<Q::dimension>>>, fields<>>;
+                                       fields<Q::template contacts<history_size<Q::dimension>>>, fields<>>;
     template <class Q>
     using reads = union_of<partner_reads<Q>, history<Q>>;
     template <class Q>
@@ -106,7 +150,8 @@ public:
                             union_of<std::conditional_t<turns, fields<Q::torque>, fields<>>, history<Q>>>;
 
     contact_law() = default;
-    /// Any order of the parts. @throws input_error if a parameter is negative, 0 where it may not be, or not finite.
+    /// @throws input_error if a parameter is negative, 0 where it may not be, or not finite; or if friction is to share
+    ///                     the damping of a normal law that has none.
     explicit contact_law(const Normal& normal, const Parts&... parts) : normal_(normal) {
         (take(parts), ...);
         check();
@@ -117,6 +162,13 @@ public:
         tangential_.check();
         rolling_.check();
         cohesion_.check();
+        if constexpr (!Normal::is_damped && damping_sharing_law<tangential_type>)
+            if (tangential_.damping != 0)
+                tsubu::detail::raise<input_error>("dem::contact_law",
+                                                  "friction takes a share of " +
+                                                      tsubu::detail::shown(tangential_.damping) +
+                                                      " of the normal law's damping, and this one has none",
+                                                  "take hertz_tsuji or hertz_dashpot, or a share of 0");
     }
 
     [[nodiscard]] const Normal& normal() const noexcept { return normal_; }
@@ -135,10 +187,10 @@ public:
         return force;
     }
     /// What the contact does, and what it remembers then.
-    /// @param[in,out] memory  [history_size<D>]
+    /// @param[in,out] past  [history_size<D>]
     template <bool IsDamped, std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] contact_action<D, Real> act(const contact<D, Real>& at,
-                                                                  vec<history_size<D>, Real>& memory) const noexcept {
+                                                                  vec<history_size<D>, Real>& past) const noexcept {
         const Real repulsion = normal_force<IsDamped, D, Real>(at);
         Real along = repulsion;
         if constexpr (cohesion_type::pulls) along = along - cohesion_.pull(at.radius);
@@ -146,20 +198,19 @@ public:
         result.force = scaled<D, Real>(at.normal, along);
         if constexpr (turns) {
             constexpr auto own = tangential_type::template history_size<D>;
-            auto spring =
-                vector_of<own, Real>([&](auto k) __attribute__((always_inline)) { return memory[k]; });
+            auto spring = vector_of<own, Real>([&](auto k) __attribute__((always_inline)) { return past[k]; });
             const auto friction = tangential_.template force<D, Real>(
                 at, repulsion, normal_.damping(at.overlap, at.mass, at.radius), spring);
-            unrolled<own>([&](auto k) __attribute__((always_inline)) { memory[k] = spring[k]; });
+            unrolled<own>([&](auto k) __attribute__((always_inline)) { past[k] = spring[k]; });
             result.force = plus<D, Real>(result.force, friction);
             result.twist = torque_of(at.normal, friction);
             if constexpr (rolling_type::resists) {
-                constexpr auto spins = contact<D, Real>::spins;
-                auto turn = vector_of<spins, Real>(
-                    [&](auto k) __attribute__((always_inline)) { return memory[own + k]; });
+                constexpr auto rest = rolling_type::template history_size<D>;
+                auto turn =
+                    vector_of<rest, Real>([&](auto k) __attribute__((always_inline)) { return past[own + k]; });
                 result.rolling = rolling_.template torque<D, Real>(at, repulsion,
                                                                    normal_.stiffness(at.overlap, at.radius), turn);
-                unrolled<spins>([&](auto k) __attribute__((always_inline)) { memory[own + k] = turn[k]; });
+                unrolled<rest>([&](auto k) __attribute__((always_inline)) { past[own + k] = turn[k]; });
             }
         }
         return result;
@@ -168,9 +219,9 @@ public:
 private:
     template <class Part>
     void take(const Part& part) {
-        if constexpr (Part::role == contact_role::tangential) tangential_ = part;
-        if constexpr (Part::role == contact_role::rolling) rolling_ = part;
-        if constexpr (Part::role == contact_role::cohesion) cohesion_ = part;
+        if constexpr (detail::has_role<contact_role::tangential, Part>) tangential_ = part;
+        if constexpr (detail::has_role<contact_role::rolling, Part>) rolling_ = part;
+        if constexpr (detail::has_role<contact_role::cohesion, Part>) cohesion_ = part;
     }
 
     Normal normal_{};

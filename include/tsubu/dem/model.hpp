@@ -4,7 +4,6 @@
 #pragma once
 
 #include <tsubu/dem/quantities.hpp>
-#include <tsubu/store/field.hpp>
 
 #include <concepts>  // std::convertible_to
 

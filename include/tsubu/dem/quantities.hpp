@@ -15,15 +15,16 @@
 #pragma once
 
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/vector_algebra.hpp>
 #include <tsubu/domain/axis.hpp>
 #include <tsubu/domain/lattice.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/list_of.hpp>
 #include <tsubu/store/standard_fields.hpp>
 
-#include <concepts>  // std::floating_point
-#include <cstddef>   // std::size_t
-#include <cstdint>   // std::int16_t, std::int64_t
+#include <concepts>     // std::floating_point
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::int16_t, std::int32_t, std::int64_t
 #include <type_traits>  // std::conditional_t
 
 namespace tsubu::dem {
@@ -95,8 +96,8 @@ struct quantities {
     using real = typename number_traits<Number>::real;
     static constexpr std::size_t dimension = D;
     static constexpr bool has_offsets = number_traits<Number>::has_offsets;
-    /// Numbers of an angular velocity or a torque: in two dimensions one, about z; in one dimension none.
-    static constexpr std::size_t spins = D == 3 ? 3 : D == 2 ? 1 : 0;
+    /// Numbers of an angular velocity or a torque.
+    static constexpr std::size_t spins = spin_count<D>;
 
     static constexpr auto position = tsubu::position<D, coordinate>;
     /// From `position`, where that is the middle of a cell [m].
@@ -108,8 +109,7 @@ struct quantities {
     static constexpr auto angular_velocity = tsubu::angular_velocity<D, real>;
     static constexpr auto torque = tsubu::torque<D, real>;
     template <std::size_t Count>
-    static constexpr field<"contacts", list_of<past_contact<real, Count>>, "",
-                           field_traits{.when = travels::never}>
+    static constexpr field<"contacts", list_of<past_contact<real, Count>>, "", field_traits{.when = travels::never}>
         contacts{};
 };
 

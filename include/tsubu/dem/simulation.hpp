@@ -4,12 +4,13 @@
 #pragma once
 
 #include <tsubu/core/vec.hpp>
-#include <tsubu/dem/bodies.hpp>
 #include <tsubu/dem/contact_law.hpp>
+#include <tsubu/dem/equal_spheres.hpp>
 #include <tsubu/dem/gravity.hpp>
 #include <tsubu/dem/integrator.hpp>
 #include <tsubu/dem/model.hpp>
 #include <tsubu/dem/quantities.hpp>
+#include <tsubu/dem/spheres.hpp>
 #include <tsubu/dem/walls.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
 #include <tsubu/store/field.hpp>

@@ -27,6 +27,13 @@ struct spring {
 ///     tsubu::dem::springs{{{.k = 1, .length = 1}}}     // of bonds of type 1
 ///
 /// The halo must reach as far as they stretch: options::cutoff.
+///
+/// Concept:       model.
+/// Cost:          one look-up of an id per bond and list of neighbours; a root and a quotient per bond, side and step.
+/// Bytes:         a bond with each of its two particles.
+/// Deterministic: yes.
+/// Choose it for chains and networks whose bonds do not break.
+/// Do not for contacts, which come and go: contact_law.
 struct springs {
     static constexpr auto role = model_role::springs;
     template <class Q>

@@ -3,8 +3,6 @@
 /// Sums and products of vectors in 1, 2 and 3 dimensions, of numbers or of lanes.
 #pragma once
 
-#include <tsubu/core/lanes.hpp>
-#include <tsubu/core/unrolled.hpp>
 #include <tsubu/core/vec.hpp>
 
 #include <cstddef>      // std::size_t
@@ -12,6 +10,10 @@
 #include <utility>      // std::index_sequence, std::make_index_sequence
 
 namespace tsubu::dem {
+
+/// Numbers of a spin or a torque: in two dimensions one, about z; in one dimension none.
+template <std::size_t D>
+inline constexpr std::size_t spin_count = D == 3 ? 3 : D == 2 ? 1 : 0;
 
 /// The vector whose component k is make(k), k a constant.
 template <std::size_t D, class Real, class Make>

@@ -8,10 +8,11 @@
 #include <tsubu/core/lanes.hpp>
 #include <tsubu/core/random.hpp>
 #include <tsubu/core/shown.hpp>
-#include <tsubu/dem/contact.hpp>
+#include <tsubu/dem/laws/concepts.hpp>
+#include <tsubu/testing/detail/contacts.hpp>
 
-#include <bit>          // std::bit_cast
 #include <cmath>        // std::abs
+#include <cstddef>      // std::size_t
 #include <cstdint>      // std::uint64_t
 #include <string>       // std::string
 #include <string_view>  // std::string_view
@@ -27,7 +28,7 @@ struct normal_law_text {
     static constexpr const char* stiffness = "law 1: the stiffness is the derivative of the force";
     static constexpr const char* energy = "law 1: the energy is the integral of the force";
     static constexpr const char* damping = "law 2: the damping is not negative, and none if the law says so";
-    static constexpr const char* lanes = "law 3: lanes of numbers have the results of the numbers";
+    static constexpr const char* lanes = "law 3: lanes have the results of the numbers, unless built to fuse products";
 };
 
 /// Does this law keep laws 1 to 3, up to this overlap [m]?
@@ -69,17 +70,22 @@ void check_normal_law(const Law& law, double most, Check&& check, std::uint64_t 
         const double damping = law.damping(d, mass, radius);
         report(Law::is_damped ? damping >= 0 : damping == 0, normal_law_text::damping, d);
 
-        using several = lanes<double>;
-        const auto overlaps = several::of([&](auto l) { return d * (1 + 0.1 * static_cast<double>(l)); });
-        const auto forces = law.elastic(overlaps, several(radius));
-        const auto dampings = law.damping(overlaps, several(mass), several(radius));
-        bool is_same = true;
-        for (std::size_t l = 0; l < several::count; ++l) {
-            const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-            is_same = is_same && bits(forces[l]) == bits(law.elastic(overlaps[l], radius)) &&
-                      bits(dampings[l]) == bits(law.damping(overlaps[l], mass, radius));
-        }
-        report(is_same, normal_law_text::lanes, d);
+        const auto in_lanes = [&]<class Real>(Real overlap, Real m, Real r) {
+            using several = lanes<Real>;
+            const auto overlaps =
+                several::of([&](auto l) { return overlap * static_cast<Real>(1 + 0.1 * static_cast<double>(l)); });
+            const auto forces = law.elastic(overlaps, several(r));
+            const auto slopes = law.stiffness(overlaps, several(r));
+            const auto dampings = law.damping(overlaps, several(m), several(r));
+            bool is_same = true;
+            for (std::size_t l = 0; l < several::count; ++l)
+                is_same = is_same && detail::is_same_number(forces[l], law.elastic(overlaps[l], r)) &&
+                          detail::is_same_number(slopes[l], law.stiffness(overlaps[l], r)) &&
+                          detail::is_same_number(dampings[l], law.damping(overlaps[l], m, r));
+            report(is_same, normal_law_text::lanes, d);
+        };
+        in_lanes(d, mass, radius);
+        in_lanes(static_cast<float>(d), static_cast<float>(mass), static_cast<float>(radius));
     }
 }
 

@@ -291,10 +291,10 @@ TEST_CASE("bodies that are all alike are checked before any is there", "[dem][ba
         return thrown<tsubu::input_error>([&] { equal_spheres{radius, mass}.check(); });
     };
     CHECK(said(.5, 1) == "nothing was thrown");
-    CHECK(says(said(-1, 1), "dem::equal_spheres: a radius of -1; give a finite length above 0"));
-    CHECK(says(said(not_a_number, 1), "a radius of nan"));
-    CHECK(says(said(infinity, 1), "a radius of inf"));
+    CHECK(says(said(-1, 1), "dem::equal_spheres: radius = -1 m; give a finite number above 0"));
+    CHECK(says(said(not_a_number, 1), "radius = nan m"));
+    CHECK(says(said(infinity, 1), "radius = inf m"));
     CHECK(says(said(.5, 0),
-               "dem::equal_spheres: a mass of 0; give a finite mass above 0; to hold particles fast take spheres"));
-    CHECK(says(said(.5, infinity), "a mass of inf"));
+               "dem::equal_spheres: mass = 0 kg; give a finite number above 0; to hold particles fast take spheres"));
+    CHECK(says(said(.5, infinity), "mass = inf kg"));
 }

@@ -3,9 +3,9 @@
 /// Masses on springs, between fixed ends.
 #pragma once
 
-#include <tsubu/dem/bodies.hpp>
 #include <tsubu/dem/references.hpp>
 #include <tsubu/dem/simulation.hpp>
+#include <tsubu/dem/spheres.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/dem/stage.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>

@@ -110,7 +110,7 @@
 
 #include <tsubu/dem/contact.hpp>
 #include <tsubu/dem/contact_law.hpp>
-#include <tsubu/dem/each_contact.hpp>
+#include <tsubu/dem/contact_pair.hpp>
 #include <tsubu/dem/equal_spheres.hpp>
 #include <tsubu/dem/explicit_euler.hpp>
 #include <tsubu/dem/gravity.hpp>

@@ -7,7 +7,7 @@
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
 #include <tsubu/dem/detail/columns.hpp>
-#include <tsubu/dem/each_contact.hpp>
+#include <tsubu/dem/contact_pair.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/store/standard_fields.hpp>
 

@@ -16,7 +16,7 @@
 #include <tsubu/dem/detail/damping_solver.hpp>
 #include <tsubu/dem/detail/motion.hpp>
 #include <tsubu/dem/detail/neighborhood.hpp>
-#include <tsubu/dem/each_contact.hpp>
+#include <tsubu/dem/contact_pair.hpp>
 #include <tsubu/dem/options.hpp>
 #include <tsubu/dem/simulation.hpp>
 #include <tsubu/neighbor/pair_list.hpp>
@@ -125,11 +125,11 @@ public:
     /// Particles take the history of their contacts into the field `contacts`: before they are written.
     void keep_history() { near_.keep_history(store_); }
 
-    /// body(touching_pair<D>) for each contact of an owned particle; of those across a border each side has one.
+    /// body(contact_pair<D>) for each contact of an owned particle; of those across a border each side has one.
     template <class Body>
     void each_contact(Body&& body) const {
         if constexpr (simulation_type::has_contacts)
-            detail::each_touching<simulation_type>(at_, near_.pairs(), near_.near_walls(), near_.walls(), body);
+            detail::each_contact<simulation_type>(at_, near_.pairs(), near_.near_walls(), near_.walls(), body);
     }
     /// body(i, j, spring): each spring from each side that is owned here.
     template <class Body>

@@ -6,6 +6,7 @@
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/laws/concepts.hpp>
 #include <tsubu/dem/springs.hpp>
 
 #include <algorithm>  // std::max, std::min
@@ -87,12 +88,12 @@ void each_mode(const Run& of, Body&& body) {
             const double share = pair.is_wall ? 0.5 : 1;
             add(pair.i, at.normal, share * k, share * c);
             if (!pair.is_wall) add(pair.j, at.normal, k, c);
-            const auto& friction = law.tangential();
+            [[maybe_unused]] const auto& friction = law.tangential();
             double k_t = 0;
             double c_t = 0;
-            if constexpr (requires { friction.stiffness(at.overlap, at.radius); })
+            if constexpr (sticking_law<typename simulation::contact_type::tangential_type>)
                 k_t = friction.stiffness(at.overlap, at.radius);
-            if constexpr (requires { friction.viscosity(at.mass, c); }) c_t = friction.viscosity(at.mass, c);
+            if constexpr (simulation::turns) c_t = friction.viscosity(at.mass, c);
             // The slip of a solid sphere has the inertia m / (1 + 5/2).
             if (at.mass > 0 && (k_t > 0 || c_t > 0)) body(3.5 * k_t / at.mass, 3.5 * c_t / at.mass);
         });

@@ -145,7 +145,7 @@ private:
         return std::to_string(of_.particles()[tsubu::id][i]);
     }
     void check_overlaps(std::uint64_t step) const {
-        of_.each_contact([&](const touching_pair<D>& pair) {
+        of_.each_contact([&](const contact_pair<D>& pair) {
             const double smaller =
                 pair.is_wall ? of_.radius(pair.i) : (std::min)(of_.radius(pair.i), of_.radius(pair.j));
             if (!(pair.at.overlap <= smaller))
@@ -170,7 +170,7 @@ private:
     void check_coordinates(std::uint64_t step) const {
         const auto& particles = of_.particles();
         std::vector<unsigned char> is_held(particles.size(), 0);
-        of_.each_contact([&](const touching_pair<D>& pair) {
+        of_.each_contact([&](const contact_pair<D>& pair) {
             is_held[static_cast<std::size_t>(pair.i)] = 1;
             if (!pair.is_wall) is_held[static_cast<std::size_t>(pair.j)] = 1;
         });

@@ -5,6 +5,7 @@
 
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/vector_algebra.hpp>
 #include <tsubu/domain/lattice.hpp>
 #include <tsubu/store/standard_fields.hpp>
 
@@ -38,7 +39,7 @@ struct columns {
     using real = typename Simulation::real;
     using position_type = vec<D, coordinate>;
     using vector_type = vec<D, real>;
-    using spin_type = vec<D == 2 ? 1 : 3, real>;
+    using spin_type = vec<spin_count<D>, real>;
 
     position_type* x = nullptr;
     vector_type* offset = nullptr;  // from x, where that is a cell

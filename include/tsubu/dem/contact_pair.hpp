@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// each_contact: walks what touches, one contact at a time.
+/// contact_pair: two bodies that touch, as they are shown to whoever walks the contacts.
 #pragma once
 
 #include <tsubu/core/types.hpp>
@@ -17,7 +17,7 @@ namespace tsubu::dem {
 
 /// Two bodies that touch: i is an owned particle; j may be a ghost, or, if it is a wall, its number.
 template <std::size_t D>
-struct touching_pair {
+struct contact_pair {
     index_t i;
     index_t j;
     bool is_wall;
@@ -26,9 +26,9 @@ struct touching_pair {
 
 namespace detail {
 
-/// body(touching_pair) for each pair of the lists that overlaps; of the pairs across a border each side has one.
+/// body(contact_pair) for each pair of the lists that overlaps; of the pairs across a border each side has one.
 template <class Simulation, class Body>
-void each_touching(const columns<Simulation>& of, std::span<const index_pair> pairs,
+void each_contact(const columns<Simulation>& of, std::span<const index_pair> pairs,
                    std::span<const index_pair> near_walls, std::span<const wall_plane<Simulation::dimension>> walls,
                    Body&& body) {
     constexpr auto D = Simulation::dimension;
@@ -44,7 +44,7 @@ void each_touching(const columns<Simulation>& of, std::span<const index_pair> pa
         const double r_j = static_cast<double>(of.radius_at(j));
         if (!(square < (r_i + r_j) * (r_i + r_j))) continue;
         const double distance = std::sqrt(square);
-        touching_pair<D> pair{i, j, false, {}};
+        contact_pair<D> pair{i, j, false, {}};
         pair.at.overlap = r_i + r_j - distance;
         const double inverse_mass = 1 / static_cast<double>(of.mass_at(i)) + 1 / static_cast<double>(of.mass_at(j));
         pair.at.mass = inverse_mass > 0 ? 1 / inverse_mass : 0;  // 0: both are held fast
@@ -60,7 +60,7 @@ void each_touching(const columns<Simulation>& of, std::span<const index_pair> pa
         const double radius = static_cast<double>(of.radius_at(i));
         const double distance = wall.distance(of.real_position(i));
         if (!(distance < radius)) continue;
-        touching_pair<D> pair{i, w, true, {}};
+        contact_pair<D> pair{i, w, true, {}};
         pair.at.overlap = radius - distance;
         pair.at.mass = static_cast<double>(of.mass_at(i));
         pair.at.radius = radius;

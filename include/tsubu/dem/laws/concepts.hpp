@@ -132,8 +132,8 @@ concept normal_law = std::semiregular<Law> && detail::normal_law_of<Law, double>
 ///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite,
 ///     exactly: across a border between ranks each computes its own side;
 ///  6. lanes of numbers have the same results as the numbers, bit for bit;
-///  7. viscosity(m*, damping) is the force per slip without history and below the limit [N s/m]: it limits the time step
-///     (longest_time_step).
+///  7. viscosity(m*, damping) is the force per slip without history and below the limit [N s/m]: it limits the time
+///     step (longest_time_step).
 /// goes_with<Normal>: whether that normal law has its stiffness.
 template <class Law>
 concept tangential_law =

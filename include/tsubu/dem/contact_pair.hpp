@@ -46,8 +46,7 @@ void each_contact(const columns<Simulation>& of, std::span<const index_pair> pai
         const double distance = std::sqrt(square);
         contact_pair<D> pair{i, j, false, {}};
         pair.at.overlap = r_i + r_j - distance;
-        const double inverse_mass = 1 / static_cast<double>(of.mass_at(i)) + 1 / static_cast<double>(of.mass_at(j));
-        pair.at.mass = inverse_mass > 0 ? 1 / inverse_mass : 0;  // 0: both are held fast
+        pair.at.mass = effective_mass(static_cast<double>(of.mass_at(i)), static_cast<double>(of.mass_at(j)));
         pair.at.radius = r_i * r_j / (r_i + r_j);
         for (std::size_t k = 0; k < D; ++k) {
             pair.at.normal[k] = d[k] / distance;
@@ -62,7 +61,7 @@ void each_contact(const columns<Simulation>& of, std::span<const index_pair> pai
         if (!(distance < radius)) continue;
         contact_pair<D> pair{i, w, true, {}};
         pair.at.overlap = radius - distance;
-        pair.at.mass = static_cast<double>(of.mass_at(i));
+        pair.at.mass = effective_mass(static_cast<double>(of.mass_at(i)), mass_of_wall);
         pair.at.radius = radius;
         for (std::size_t k = 0; k < D; ++k) {
             pair.at.normal[k] = wall.normal[k];

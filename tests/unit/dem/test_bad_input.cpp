@@ -5,6 +5,7 @@
 #include <tsubu/comm/local_transport.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/scenes/chain.hpp>
+#include <tsubu/dem/stability.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
 #include <tsubu/dem/walls.hpp>
 
@@ -97,6 +98,29 @@ TEST_CASE("sound input is not refused", "[dem][bad_input]") {
     // An infinite mass holds a particle in place.
     for (const auto& text : messages(1, with([](input& of) { of.mass = infinity; })))
         CHECK(text == "nothing was thrown");
+}
+TEST_CASE("grains of infinite mass that touch each other and a wall stay where they are", "[dem]") {
+    tsubu::run_ranks(1, [](local_transport& on) {
+        run_type of(scene::box_type({0, -1}, {10, 10}, {.periodic = {true, false}}), {.time_step = 1e-4, .skin = .1}, on,
+                    hooke_dashpot<>{{1e5, 10}}, walls{{{.point = {0, 0}, .normal = {0, 1}}}}, spheres{});
+        const auto add = [&](std::int64_t id, double x, double y, double mass) {
+            of.particles().push_back(tsubu::id = id, tsubu::position<2> = {x, y}, tsubu::radius = .5,
+                                     tsubu::mass = mass);
+        };
+        add(1, 5, .4, infinity);
+        add(2, 5.9, .4, infinity);
+        add(3, 5.45, 1.25, 1);
+        of.steps(100);
+        for (tsubu::index_t i = 0; i < 3; ++i) {
+            const auto at = of.position(i);
+            const auto id = of.particles()[tsubu::id][static_cast<std::size_t>(i)];
+            if (id == 3)
+                CHECK(at[1] > 1.25);
+            else
+                CHECK((at[0] == (id == 1 ? 5 : 5.9) && at[1] == .4));
+        }
+        CHECK(std::isfinite(longest_time_step(of)));
+    });
 }
 TEST_CASE("a particle that cannot be is refused by its id", "[dem][bad_input]") {
     check_refused(with([](input& of) { of.radius = -1; }),

@@ -18,6 +18,14 @@ namespace tsubu::dem::detail {
 /// The moment of inertia of a solid sphere is 2/5 m r^2.
 inline constexpr double sphere_inertia = 0.4;
 
+/// A wall is as heavy as a particle that is held in place.
+inline constexpr double mass_of_wall = std::numeric_limits<double>::infinity();
+/// Of two bodies, from reciprocals, so that one mass may be infinite; 0 if both are: there is nothing to damp.
+[[nodiscard, gnu::always_inline]] inline double effective_mass(double m_i, double m_j) noexcept {
+    const double inverse = 1 / m_i + 1 / m_j;
+    return inverse > 0 ? 1 / inverse : 0;
+}
+
 /// A wall in the dimensions of a scene.
 template <std::size_t D>
 struct wall_plane {

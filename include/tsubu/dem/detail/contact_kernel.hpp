@@ -113,9 +113,7 @@ private:
             } else {
                 at.mass = V::of([&](auto l) __attribute__((always_inline)) {
                     const auto& pair = pairs[which(l)];
-                    // Reciprocals, so that one mass may be infinite. Of two there is nothing to damp.
-                    const auto inverse = 1 / of.mass[pair.i] + 1 / of.mass[pair.j];
-                    return static_cast<real>(inverse > 0 ? 1 / inverse : 0);
+                    return static_cast<real>(effective_mass(of.mass[pair.i], of.mass[pair.j]));
                 });
                 at.radius = V::of([&](auto l) __attribute__((always_inline)) {
                     const auto& pair = pairs[which(l)];
@@ -184,7 +182,12 @@ private:
         template <class Which>
         [[gnu::always_inline]] void measure(Which which, contact<D, V>& at) const noexcept {
             at.radius = radii(which);
-            at.mass = V::of([&](auto l) __attribute__((always_inline)) { return of.mass_at(pairs[which(l)].i); });
+            if constexpr (Simulation::bodies_type::are_equal)
+                at.mass = V(of.mass_of_all);
+            else
+                at.mass = V::of([&](auto l) __attribute__((always_inline)) {
+                    return static_cast<real>(effective_mass(of.mass[pairs[which(l)].i], mass_of_wall));
+                });
             if constexpr (law_type::needs_velocity)
                 at.velocity = vector_of<D, V>([&](auto k) __attribute__((always_inline)) {
                     return V::of([&](auto l) __attribute__((always_inline)) { return of.v[pairs[which(l)].i][k]; });

@@ -69,12 +69,12 @@ void each_mode(const Run& of, Body&& body) {
         matrix damping{};
     };
     std::vector<sums> all(of.particles().owned_count());
-    const auto add = [&](index_t i, const vec<D, double>& n, double k, double c) {
+    const auto add = [&](index_t i, const vec<D, double>& n, double k, double c, double across = 0) {
         if (static_cast<std::size_t>(i) >= all.size()) return;  // a ghost: its owner sees to it
         auto& at = all[static_cast<std::size_t>(i)];
         for (std::size_t a = 0; a < D; ++a)
             for (std::size_t b = 0; b < D; ++b) {
-                at.stiffness[a][b] += k * n[a] * n[b];
+                at.stiffness[a][b] += (k - across) * n[a] * n[b] + (a == b ? across : 0);
                 at.damping[a][b] += c * n[a] * n[b];
             }
     };
@@ -102,8 +102,10 @@ void each_mode(const Run& of, Body&& body) {
         auto n = of.apart(i, j);
         double square = 0;
         for (const double d : n) square += d * d;
-        for (double& d : n) d /= std::sqrt(square);
-        add(i, n, one.k, 0);
+        const double distance = std::sqrt(square);
+        for (double& d : n) d /= distance;
+        // Stretched, it is stiff across too, as a string is.
+        add(i, n, one.k, 0, one.k * (std::max)(0.0, 1 - one.length / distance));
     });
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double m = of.mass(static_cast<index_t>(i));
@@ -139,7 +141,8 @@ template <class Run>
 }  // namespace detail
 
 /// An upper bound of the angular frequency of any mode of what touches, as stiff as it is at the moment [rad/s]:
-/// sqrt(2 max lambda_max(sum k n n^T) / m) of the forces along normals; or sqrt(7/2 k_t / m*) of a contact that sticks,
+/// sqrt(2 max lambda_max(sum k n n^T) / m) of the forces along normals, and of springs, which are stiff across their
+/// length as well if they are stretched; or sqrt(7/2 k_t / m*) of a contact that sticks,
 /// whose slip has the mass 2/7 m*, if that is more.
 ///
 /// Exact for the infinite chain and the FCC crystal. No bound where several contacts of one particle stick and k_t is
@@ -161,8 +164,9 @@ template <class Run>
 ///
 /// Each particle gives bounds omega and c of the frequency and the damping rate of its modes, as greatest_frequency
 /// does; the step is the least integrator::stable_until(c / (2 omega)) / omega. For velocity_verlet and
-/// symplectic_euler that is a bound of any packing, since theirs is dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over
-/// contacts. A law that is linear from the first touch counts with two of the lightest particles, even if none touch.
+/// symplectic_euler that is a bound of any packing whose contacts do not stick, since theirs is
+/// dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over contacts. A law that is linear from the first touch counts with two of
+/// the lightest particles, even if none touch.
 /// Collective: yes, one reduction. Complexity: O(contacts).
 template <class Run>
 [[nodiscard]] double longest_time_step(const Run& of) {

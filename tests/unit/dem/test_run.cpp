@@ -4,6 +4,7 @@
 
 #include <tsubu/comm/local_transport.hpp>
 #include <tsubu/dem/pefrl.hpp>
+#include <tsubu/dem/springs.hpp>
 #include <tsubu/dem/stability.hpp>
 #include <tsubu/dem/velocity_verlet.hpp>
 
@@ -209,5 +210,28 @@ TEST_CASE("the longest time step knows of friction that sticks, and of its dashp
         const double ratio = 3.5 * 300 / (2 * omega);
         CHECK(greatest_frequency(stiff) == Approx(omega).epsilon(1e-12));
         CHECK(longest_time_step(stiff) == Approx(2 * (std::sqrt(1 + ratio * ratio) - ratio) / omega).epsilon(1e-12));
+    });
+}
+TEST_CASE("a stretched spring is stiff across its length too", "[dem][run][guards]") {
+    // A cross: one mass in the middle of four that it is bound to. At rest two springs are stiff along each axis, and
+    // four if they pull; twice that is the bound.
+    using cross = simulation<2, double, velocity_verlet, springs, equal_spheres>;
+    tsubu::run_ranks(1, [](local_transport& on) {
+        const auto frequency = [&](double length) {
+            auto of = make_run<cross>(cross::box_type({0, 0}, {12, 6}),
+                                      {.time_step = 1e-4, .cutoff = 3, .guard = no_guards}, on,
+                                      springs{{{.k = 100, .length = length}}}, equal_spheres{.radius = .5, .mass = 1});
+            constexpr tsubu::vec<2> where[] = {{6, 3}, {7, 3}, {5, 3}, {6, 4}, {6, 2}};
+            auto& store = of.particles();
+            for (std::int64_t id = 0; id < 5; ++id) add(store, id, where[id], {0, 0});
+            for (std::int64_t id = 1; id < 5; ++id)
+                for (const auto end : {std::int64_t{0}, id})
+                    store[tsubu::bonds][static_cast<std::size_t>(end)].push_back({.type = 1, .ids = {0, id}});
+            of.start();
+            return greatest_frequency(of);
+        };
+        CHECK(frequency(1) == Approx(std::sqrt(4 * 100.0)));
+        CHECK(frequency(0) == Approx(std::sqrt(8 * 100.0)));
+        CHECK(frequency(.5) == Approx(std::sqrt(6 * 100.0)));
     });
 }

@@ -16,6 +16,7 @@
 ///     dem/settle/bed/velocity_verlet/double  what a bed becomes that settles with a long step
 ///     dem/ladder/RUNG/BASE/NUMBER            ns per particle-step and bytes per particle in a dense bed; BASE is the
 ///                                            rung without the last model
+///     dem/lists/bed/half | full/double       ns per particle of building a list of neighbours
 ///     dem/hand/TASK/WHO/double               loops by hand beside the library's
 ///     dem/beside/SCENE/tsubu | lammps/double the same scene, on the same core, in turns
 ///     dem/ranks/SCENE/RANKS/double           ns per particle-step on 1 and 2 ranks

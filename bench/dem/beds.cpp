@@ -13,6 +13,9 @@
 #include <tsubu/io/byte_source.hpp>
 #include <tsubu/io/lammps_reader.hpp>
 #include <tsubu/io/lammps_writer.hpp>
+#include <tsubu/neighbor/neighbor_list.hpp>
+#include <tsubu/neighbor/pair_list.hpp>
+#include <tsubu/neighbor/reach.hpp>
 
 #include <algorithm>    // std::max
 #include <cmath>        // std::abs, std::nextafter
@@ -219,10 +222,32 @@ void by_hand(row_reporter& report, extent how_much) {
     benchmark::DoNotOptimize(sum);
 }
 
+/// Lists of the settled bed, built anew: each pair once, or from both sides.
+void lists(row_reporter& report, extent how_much) {
+    const auto& bed = settled_bed();
+    const auto x = bed[tsubu::position<3>];
+    const tsubu::same_reach reach{1.1};
+    constexpr std::size_t builds = 20;
+    const double units = static_cast<double>(builds * bed.owned_count());
+    tsubu::pair_list half;
+    tsubu::neighbor_list full;
+    const auto times = [](auto build) {
+        return [build](row_fields&) {
+            return undisturbed_seconds(builds, build);
+        };
+    };
+    take_turns(report,
+               {{"dem/lists/bed/half/double", units, times([&] { half.build(x, bed.owned_count(), reach); })},
+                {"dem/lists/bed/full/double", units, times([&] { full.build(x, bed.owned_count(), reach); })}},
+               2 * rounds_of(how_much));
+    if (2 * half.size() != full.total()) throw std::runtime_error("bench_dem: the two lists differ");
+}
+
 }  // namespace
 
 void add_beds(std::vector<group>& groups, extent how_much) {
     groups.push_back({"dem/ladder", 10, [how_much](row_reporter& report) { ladder(report, how_much); }});
+    groups.push_back({"dem/lists", 1, [how_much](row_reporter& report) { lists(report, how_much); }});
     groups.push_back({"dem/hand", 4, [how_much](row_reporter& report) { by_hand(report, how_much); }});
 }
 

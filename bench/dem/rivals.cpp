@@ -9,11 +9,14 @@
 #include <tsubu/dem/scenes/gas.hpp>
 #include <tsubu/dem/scenes/settle.hpp>
 
-#include <sched.h>  // cpu_set_t, sched_getaffinity, sched_setaffinity
+#include <malloc.h>  // malloc_trim
+#include <sched.h>   // cpu_set_t, sched_getaffinity, sched_setaffinity
+#include <unistd.h>  // sysconf
 
 #include <cmath>      // std::abs
 #include <cstdio>     // popen, std::fgets
 #include <cstdlib>    // std::getenv, std::strtod, std::system
+#include <fstream>    // std::ifstream
 #include <memory>     // std::shared_ptr
 #include <stdexcept>  // std::runtime_error
 
@@ -67,6 +70,15 @@ private:
     cpu_set_t before_;
 };
 
+/// What this program holds in memory [bytes]; what it has freed is given back first.
+double resident_bytes() {
+    malloc_trim(0);
+    std::ifstream state("/proc/self/statm");
+    double pages = 0;
+    state >> pages >> pages;
+    return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 /// A scene from its beginning, after some steps that do not count: each turn does the same.
 template <class Scene>
 void beside(row_reporter& report, const std::string& name, const Scene& scene, const std::string& rival_scene,
@@ -75,6 +87,7 @@ void beside(row_reporter& report, const std::string& name, const Scene& scene, c
     const auto energies = std::make_shared<std::pair<double, double>>();
     const timed_contender ours = {"dem/beside/" + name + "/tsubu/double", units, [=](row_fields& fields) {
                                       const pinned here;
+                                      const double before = resident_bytes();
                                       auto run = stage(scene, alone());
                                       run->steps(warmup);
                                       const auto lists = run->renewals();
@@ -82,6 +95,7 @@ void beside(row_reporter& report, const std::string& name, const Scene& scene, c
                                       const auto n = static_cast<double>(scene.count());
                                       energies->first = kinetic_energy(*run);
                                       fields.emplace_back("bytes", static_cast<double>(run->memory_bytes()) / n);
+                                      fields.emplace_back("resident", (resident_bytes() - before) / n);
                                       fields.emplace_back("builds", static_cast<double>(run->renewals() - lists));
                                       fields.emplace_back("kinetic", energies->first);
                                       fields.emplace_back("particles", n);

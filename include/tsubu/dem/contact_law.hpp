@@ -84,8 +84,9 @@ struct contact_action {
 /// How two bodies that overlap act on each other: a normal law and its parts, each at most once, in any order.
 ///
 /// Friction and rolling resistance are limited by the force of the normal law alone, repulsion and dashpot: cohesion is
-/// subtracted from the force that bodies feel, not from what presses their surfaces together. So |F_t| <= mu |F + pull|,
-/// F the force along the normal that is measured from outside. (LAMMPS' pair_style granular adds the pull once more.)
+/// subtracted from the force that bodies feel, not from what presses their surfaces together. So |F_t| <= mu
+/// |F + pull|, F the force along the normal that is measured from outside. (LAMMPS' pair_style granular adds the pull
+/// once more.)
 ///
 ///     using glass = tsubu::dem::hertz<tsubu::dem::mindlin_history>;
 ///     glass law{{.modulus = 2.5e10}, {.shear_modulus = 1.1e10, .mu = 0.3}};

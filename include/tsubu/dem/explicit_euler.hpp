@@ -13,8 +13,8 @@ namespace tsubu::dem {
 
 /// A drift with the old velocities, and a kick with the old forces.
 ///
-/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; each contact gains
-/// energy, by (omega dt)^2 per step: without damping it is stable for no time step.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own; deterministic.
+/// Order: 1; each contact gains energy, by (omega dt)^2 per step: without damping it is stable for no time step.
 /// Choose it to see that. Do not otherwise.
 struct explicit_euler {
     static constexpr unsigned force_evaluations = 1;

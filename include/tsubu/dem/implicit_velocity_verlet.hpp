@@ -16,7 +16,7 @@ namespace tsubu::dem {
 /// v = (v_half + h/2 f_elastic) / (1 + h/2 c), of several by going round them until nothing changes.
 ///
 /// Concept: integrator. Cost: one force evaluation per step, and a round of the contacts per digit or so: five to ten
-/// times velocity_verlet's step where many touch; bytes: D numbers.
+/// times velocity_verlet's step where many touch; bytes: D numbers; deterministic on so many ranks.
 /// Order of the restitution: min(p + 1, q + 1, 2), p and q the powers of the overlap in force and damping: 1.25 with
 /// hertz_tsuji, 1 with a dashpot, which begins with a jump. Stable for omega dt < 2 whatever the damping.
 /// Choose it where damping is strong, or restitution is to be accurate. Do not in large beds, whose bulk does not tell

@@ -18,8 +18,14 @@
 #include <tsubu/dem/quantities.hpp>
 
 #include <concepts>  // std::convertible_to, std::same_as
+#include <cstddef>   // std::size_t
 
 namespace tsubu::dem {
+namespace detail {
+
+struct any_run;  // an integrator takes every run
+
+}  // namespace detail
 
 /// How velocities and positions follow from forces.
 ///  1. advance(run, h, steps) brings a run from one step to the next by its members kick, drift, kick_and_drift,
@@ -32,7 +38,8 @@ namespace tsubu::dem {
 ///  4. an oscillator of frequency omega and damping ratio z does not grow at steps h with omega h < stable_until(z).
 /// testing::check_integrator judges one of your own.
 template <class Integrator>
-concept integrator = requires(double damping_ratio) {
+concept integrator = requires(double damping_ratio, detail::any_run& run, double time_step, std::size_t steps) {
+    Integrator::advance(run, time_step, steps);
     { Integrator::force_evaluations } -> std::convertible_to<unsigned>;
     { Integrator::moves_spins } -> std::convertible_to<bool>;
     { Integrator::solves_damping } -> std::convertible_to<bool>;

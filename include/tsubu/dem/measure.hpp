@@ -95,7 +95,7 @@ template <class Run>
         }
     return detail::summed(of, std::array{sum})[0];
 }
-/// Sum of m v [kg m/s].
+/// Sum of m v [kg m/s]; particles of infinite mass are left out.
 template <class Run>
 [[nodiscard]] auto momentum(Run& of) {
     std::array<double, Run::simulation_type::dimension> sum{};
@@ -126,13 +126,13 @@ template <class Run>
     return static_cast<std::uint64_t>(
         detail::summed(of, std::array{static_cast<double>(of.particles().owned_count())})[0]);
 }
-/// Z: contacts per particle, of a pair one for each side; walls count.
+/// Z: contacts with other particles, per particle; walls do not count.
 template <class Run>
 [[nodiscard]] double coordination_number(Run& of) {
     std::array<double, 2> sum{0, static_cast<double>(of.particles().owned_count())};
     of.each_contact([&](const auto& pair) {
-        const bool is_shared = pair.is_wall || static_cast<std::size_t>(pair.j) >= of.particles().owned_count();
-        sum[0] += is_shared ? 1 : 2;
+        if (pair.is_wall) return;
+        sum[0] += static_cast<std::size_t>(pair.j) < of.particles().owned_count() ? 2 : 1;  // a ghost counts at home
     });
     sum = detail::summed(of, sum);
     return sum[0] / sum[1];

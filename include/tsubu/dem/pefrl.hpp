@@ -13,7 +13,7 @@ namespace tsubu::dem {
 
 /// Drifts and kicks in turn, four of these, with coefficients that keep the error of fourth order small.
 ///
-/// Concept: integrator. Cost: four force evaluations per step; bytes: none of its own.
+/// Concept: integrator. Cost: four force evaluations per step; bytes: none of its own; deterministic.
 /// Order: 4 for smooth forces; of a contact what that allows: 2 to 2.5. Damping sees the velocities of the stages.
 /// Choose it for smooth problems at high accuracy: modes of bonded chains. Do not for collisions: at equal cost
 /// velocity_verlet is more accurate. Contacts that remember do not compile with it.
@@ -22,9 +22,11 @@ struct pefrl {
     static constexpr unsigned force_evaluations = 4;
     static constexpr bool moves_spins = true;
     static constexpr bool solves_damping = false;
-    /// Numerically, rounded down: with damping it is not smooth in z, and above 1.16 times that of velocity_verlet.
+    /// Numerically, rounded down: it is not smooth in z. 2.55 is the least of all z in (0, .25], at z = .1; beyond, it
+    /// is above 1.16 times that of velocity_verlet.
     [[nodiscard]] static double stable_until(double z) noexcept {
-        return z == 0 ? 2.98 : 1.16 * 2 / (std::sqrt(1 + z * z) + z);
+        if (z == 0) return 2.98;
+        return z <= 0.25 ? 2.55 : 1.16 * 2 / (std::sqrt(1 + z * z) + z);
     }
     template <class Q>
     using keeps = fields<>;

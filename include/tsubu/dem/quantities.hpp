@@ -34,6 +34,7 @@ namespace tsubu::dem {
 /// @tparam Coordinate  float, double, or lattice<Int>
 /// @tparam Real        float or double
 template <class Coordinate, std::floating_point Real>
+    requires(std::floating_point<Coordinate> || is_lattice<Coordinate>)
 struct mixed_precision {};
 
 /// Positions as the nearest point of a coarse lattice, which decides whose a particle is, and the distance from it; all

@@ -64,9 +64,12 @@ struct oblique_rebound {
     double tangential;  ///< velocity along the wall [m/s]
     double spin;        ///< [rad/s]
 };
-/// An elastic Hookean sphere with a tangential spring of 2/7 of the normal stiffness: it rolls off at 3/7 v_t, 10/7 v_t
-/// / R if tan(theta) <= 3.5 mu, else it slides.
+/// An elastic Hookean sphere with a tangential spring of 2/7 of the normal stiffness. If tan(theta) <= 3.5 mu it
+/// sticks, and leaves with its slip reversed, at 3/7 v_t and a spin of 10/7 v_t / R; else it slides, and leaves at
+/// v_t - 2 mu v_n with 5 mu v_n / R.
 /// @param normal, along  velocities before, both positive [m/s]
+/// @param mu             coefficient of friction
+/// @param radius         [m]
 /// Source: slip has the mass 2/7 m, so with this stiffness both springs have the same period, and slip is reversed.
 [[nodiscard]] inline oblique_rebound oblique_impact(double normal, double along, double mu, double radius) noexcept {
     if (along <= 3.5 * mu * normal) return {along * 3 / 7, along * 10 / 7 / radius};

@@ -7,6 +7,7 @@
 #include <tsubu/comm/duplicate_ids.hpp>
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
+#include <tsubu/core/expects.hpp>
 #include <tsubu/core/shown.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
@@ -77,20 +78,21 @@ public:
     [[nodiscard]] const Model& model() const noexcept {
         return std::get<Model>(models_);
     }
+    /// Since this run was made: a restart does not tell how many there were before.
     [[nodiscard]] std::uint64_t steps_done() const noexcept { return steps_; }
     /// How often neighbours have been found.
     [[nodiscard]] std::uint64_t renewals() const noexcept { return near_.renewals(); }
     /// Which particles are near each other.
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return near_.pairs(); }
-    /// What particles, neighbours and memory of contacts take on this rank [bytes].
+    /// What particles, lists of neighbours and histories of contacts take on this rank, without halo and id maps [bytes].
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return store_.memory_bytes() + near_.memory_bytes(); }
 
     /// Particles go to their ranks, neighbours are found, and forces computed. Contacts begin without a history, but
     /// for that which particles of a restart bring with them.
     /// @throws on all ranks or none: input_error if a particle is not what it may be, or a guard refuses.
-    void start() { begin(true, partners::are_here); }
+    void start() { begin(true); }
     /// As start, for particles of a restart: they have their forces.
-    void resume() { begin(false, partners::are_here); }
+    void resume() { begin(false); }
     /// body(particles()) adds, removes or changes particles; then as start, but contacts keep their history where both
     /// of their particles remain. Forces are computed anew: a dashpot sees velocities of the full step for once.
     ///
@@ -100,30 +102,38 @@ public:
     /// @throws on all ranks or none: as start; or what body throws. Particles are as body left them then.
     template <class Body>
     void change(Body&& body) {
-        if (is_started_) near_.keep_history(store_);
+        if (is_started_) keep_history();
         is_started_ = false;
+        partners_ = partners::may_be_gone;
+        columns_hold_ = false;
         agreement<> all(on_->rank());
         all.attempt([&] {
             store_.clear_ghosts();
             body(store_);
         });
         on_->reduce(all.words(), reduction::sum);
-        all.settle("dem::run::change");
-        begin(true, partners::may_be_gone);
+        all.settle("dem::run::change", "particles are as the body left them");
+        begin(true);
     }
     /// So many time steps. @throws on all ranks or none: input_error if neighbours were used too long, a particle left
-    /// the box, or a guard refuses. Particles are somewhere within a step then: look at them, or go back to a restart.
+    /// the box, or a guard refuses. Particles are somewhere within a step then: look at
+    /// them in particles(), or go back to a restart; measures need a start.
     void steps(std::size_t count) {
         if (!is_started_) start();
-        check_count();
+        check_count("dem::run::steps");
+        at_ = columns_type(store_, box(), bodies());  // columns move when memory is reserved
         near_.drop_kept_history(store_);
         is_started_ = false;  // if this throws, lists and columns may be of another step than particles
         Integrator::advance(*this, how_.time_step, count);
         near_.check_uses();
         is_started_ = true;
     }
-    /// Particles take the history of their contacts into the field `contacts`: before they are written.
-    void keep_history() { near_.keep_history(store_); }
+    /// Particles take the history of their contacts into the field `contacts`: before they are written. Collective.
+    /// @throws input_error on all ranks if particles were added or removed without change.
+    void keep_history() {
+        check_count("dem::run::keep_history");
+        near_.keep_history(store_);
+    }
 
     /// body(contact_pair<D>) for each contact of an owned particle; of those across a border each side has one.
     template <class Body>
@@ -140,14 +150,24 @@ public:
     }
     /// From particle j to i, the shorter way round on a lattice [m].
     [[nodiscard]] vec<D, double> apart(index_t i, index_t j) const noexcept {
+        expect_columns();
         vec<D, double> d;
         for (std::size_t k = 0; k < D; ++k) d[k] = static_cast<double>(at_.apart(k, i, j));
         return d;
     }
-    [[nodiscard]] double mass(index_t i) const noexcept { return static_cast<double>(at_.mass_at(i)); }
-    [[nodiscard]] double radius(index_t i) const noexcept { return static_cast<double>(at_.radius_at(i)); }
+    [[nodiscard]] double mass(index_t i) const noexcept {
+        expect_columns();
+        return static_cast<double>(at_.mass_at(i));
+    }
+    [[nodiscard]] double radius(index_t i) const noexcept {
+        expect_columns();
+        return static_cast<double>(at_.radius_at(i));
+    }
     /// In real units [m].
-    [[nodiscard]] vec<D, double> position(index_t i) const noexcept { return at_.real_position(i); }
+    [[nodiscard]] vec<D, double> position(index_t i) const noexcept {
+        expect_columns();
+        return at_.real_position(i);
+    }
     [[nodiscard]] const vec<D, double>& gravity_acceleration() const noexcept { return gravity_; }
 
     // What integrators are made of. Durations in seconds.
@@ -155,10 +175,7 @@ public:
     /// v += duration a.
     void kick(double duration) noexcept { mover().kick(duration); }
     /// x += duration v.
-    void drift(double duration) noexcept {
-        travel(mover().drift(duration), duration);
-        forces_are_old_ = true;
-    }
+    void drift(double duration) noexcept { travel(mover().drift(duration), duration); }
     /// A kick, or two of them, and a drift, in one pass; forces are cleared.
     template <bool Twice>
     void kick_and_drift(double kicked, double drifted) noexcept {
@@ -174,7 +191,9 @@ public:
     /// The forces of all particles where they are, to be called after positions have changed; forces were cleared.
     void evaluate_forces() {
         forces_are_old_ = false;
+        columns_hold_ = false;  // if that fails, particles may be elsewhere
         const bool is_new = near_.follow(store_);
+        columns_hold_ = true;
         counted_ = store_.size();
         if (is_new) at_ = columns_type(store_, box(), bodies());
         find_forces(how_.time_step, [&] {
@@ -202,7 +221,7 @@ private:
           models_(models),
           near_(box, checked(how), on, bodies(), detail::walls_of<simulation_type>(models_),
                 detail::spring_kinds_of<simulation_type>(models_)) {
-        std::apply([](const auto&... one) { (detail::check_model(one), ...); }, models_);
+        std::apply([](const auto&... one) { (one.check(), ...); }, models_);
         if constexpr (simulation_type::has_gravity)
             for (std::size_t k = 0; k < D; ++k)
                 gravity_[k] = model<typename simulation_type::gravity_type>().acceleration[k];
@@ -218,11 +237,16 @@ private:
     [[nodiscard]] auto mover() const noexcept {
         return detail::motion<simulation_type>(at_, store_.owned_count(), gravity_);
     }
+    void expect_columns() const noexcept {
+        TSUBU_EXPECTS(columns_hold_, "dem::run: not started, or the last call threw; call start first");
+    }
     void travel(real fastest_square, double duration) noexcept {
+        forces_are_old_ = true;
         near_.travel(std::sqrt(static_cast<double>(fastest_square)) * std::abs(duration));
     }
-    void begin(bool finds_forces, partners which) {
+    void begin(bool finds_forces) {
         is_started_ = false;
+        columns_hold_ = false;
         has_been_at_rest_ = false;
         agreement<> all(on_->rank());
         store_.clear_ghosts();
@@ -230,29 +254,31 @@ private:
         on_->reduce(all.words(), reduction::sum);
         all.settle("dem::run::start");
         refuse_duplicates();
-        near_.renew(store_, typename simulation_type::restart_fields{}, which);
+        near_.renew(store_, typename simulation_type::restart_fields{}, partners_);
         counted_ = store_.size();
         at_ = columns_type(store_, box(), bodies());
+        columns_hold_ = true;
         look();
         if (finds_forces) {
             clear_forces();
             find_forces(0, [] {});  // no time passes: what contacts remember stays
         }
         is_started_ = true;
+        partners_ = partners::are_here;
     }
-    /// Whether particles were added or removed behind our back. Collective.
-    void check_count() {
+    /// Whether particles were added or removed without run::change. Collective.
+    void check_count(const char* where) {
         agreement<> all(on_->rank());
         all.attempt([&] {
             if (store_.size() != counted_)
-                tsubu::detail::raise<input_error>("dem::run::steps",
+                tsubu::detail::raise<input_error>(where,
                                                   std::to_string(store_.size()) +
                                                       " particles and ghosts, where neighbours were found of " +
                                                       std::to_string(counted_),
                                                   "add and remove particles by run::change, or start again");
         });
         on_->reduce(all.words(), reduction::sum);
-        all.settle("dem::run::steps");
+        all.settle(where);
     }
     void refuse_duplicates() {
         const auto twice = duplicate_ids(*on_, store_.owned()[tsubu::id]);
@@ -312,6 +338,8 @@ private:
     std::uint64_t steps_ = 0;
     std::size_t counted_ = 0;  // particles and ghosts when neighbours were found
     bool forces_are_old_ = false;
+    bool columns_hold_ = false;
+    partners partners_ = partners::are_here;  // whether those of a history that particles bring have to be near
     bool has_been_at_rest_ = false;
     bool is_started_ = false;
 

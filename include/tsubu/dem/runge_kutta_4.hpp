@@ -15,7 +15,7 @@ namespace tsubu::dem {
 /// The classical Runge-Kutta method.
 ///
 /// Concept: integrator. Cost: four force evaluations per step; bytes: 4 D numbers, for what the step began with and the
-/// sum of its slopes.
+/// sum of its slopes; deterministic.
 /// Order: 4 for smooth forces, with velocities too; of a contact what that allows. Energy drifts.
 /// Choose it for smooth problems with damping. Do not for collisions, nor for long runs without damping: pefrl. What
 /// makes particles spin does not compile with it.

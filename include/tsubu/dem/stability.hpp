@@ -6,8 +6,11 @@
 #include <tsubu/comm/transport.hpp>
 #include <tsubu/core/types.hpp>
 #include <tsubu/core/vec.hpp>
+#include <tsubu/dem/contact_pair.hpp>
+#include <tsubu/dem/detail/columns.hpp>
 #include <tsubu/dem/laws/concepts.hpp>
 #include <tsubu/dem/springs.hpp>
+#include <tsubu/dem/vector_algebra.hpp>
 
 #include <algorithm>  // std::max, std::min
 #include <array>      // std::array
@@ -20,96 +23,178 @@
 namespace tsubu::dem {
 namespace detail {
 
-/// The greatest eigenvalue of a symmetric matrix of non-negative ones, by Jacobi's rotations.
-template <std::size_t D>
-[[nodiscard]] double greatest_eigenvalue(std::array<vec<D, double>, D> a) noexcept {
-    for (int sweep = 0; sweep < 32; ++sweep) {  // converges quadratically: a few are enough
-        double off = 0;
-        double trace = 0;
-        for (std::size_t p = 0; p < D; ++p) {
-            trace += a[p][p];
-            for (std::size_t q = p + 1; q < D; ++q) off += a[p][q] * a[p][q];
-        }
-        if (off <= 1e-30 * trace * trace) break;
-        for (std::size_t p = 0; p < D; ++p)
-            for (std::size_t q = p + 1; q < D; ++q) {
-                if (a[p][q] == 0) continue;
-                const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-                const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-                const double c = 1 / std::sqrt(t * t + 1);
-                const double s = t * c;
-                for (std::size_t k = 0; k < D; ++k) {
-                    const double kp = a[k][p];
-                    const double kq = a[k][q];
-                    a[k][p] = c * kp - s * kq;
-                    a[k][q] = s * kp + c * kq;
-                }
-                for (std::size_t k = 0; k < D; ++k) {
-                    const double pk = a[p][k];
-                    const double qk = a[q][k];
-                    a[p][k] = c * pk - s * qk;
-                    a[q][k] = s * pk + c * qk;
-                }
-            }
-    }
-    double most = 0;
-    for (std::size_t k = 0; k < D; ++k) most = (std::max)(most, a[k][k]);
-    return most;
-}
+/// A symmetric matrix of non-negative eigenvalues.
+template <std::size_t N>
+class form {
+public:
+    using vector = vec<N, double>;
 
-/// body(k, c) for bounds of k/m [1/s^2] and c/m [1/s] of all modes that an owned particle takes part in, and for the
-/// slip of each contact.
+    /// += k g g^T.
+    void add(double k, const vector& g) noexcept {
+        for (std::size_t a = 0; a < N; ++a)
+            for (std::size_t b = 0; b < N; ++b) rows_[a][b] += k * g[a] * g[b];
+    }
+    /// At least the greatest eigenvalue: the greatest sum of a row.
+    [[nodiscard]] double bound() const noexcept {
+        double most = 0;
+        for (const auto& row : rows_) {
+            double sum = 0;
+            for (const double one : row) sum += std::abs(one);
+            most = (std::max)(most, sum);
+        }
+        return most;
+    }
+    /// The greatest eigenvalue, by Jacobi's rotations.
+    [[nodiscard]] double greatest() const noexcept {
+        auto a = rows_;
+        for (int sweep = 0; sweep < 32; ++sweep) {  // converges quadratically: a few are enough
+            double off = 0;
+            double trace = 0;
+            for (std::size_t p = 0; p < N; ++p) {
+                trace += a[p][p];
+                for (std::size_t q = p + 1; q < N; ++q) off += a[p][q] * a[p][q];
+            }
+            if (off <= 1e-30 * trace * trace) break;  // of the size of rounding
+            for (std::size_t p = 0; p < N; ++p)
+                for (std::size_t q = p + 1; q < N; ++q) turn(a, p, q);
+        }
+        double most = 0;
+        for (std::size_t k = 0; k < N; ++k) most = (std::max)(most, a[k][k]);
+        return most;
+    }
+
+private:
+    using matrix = std::array<vector, N>;
+    static void turn(matrix& a, std::size_t p, std::size_t q) noexcept {
+        if (a[p][q] == 0) return;
+        const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+        const double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1);
+        const double s = t * c;
+        for (std::size_t k = 0; k < N; ++k) {
+            const double kp = a[k][p];
+            const double kq = a[k][q];
+            a[k][p] = c * kp - s * kq;
+            a[k][q] = s * kp + c * kq;
+        }
+        for (std::size_t k = 0; k < N; ++k) {
+            const double pk = a[p][k];
+            const double qk = a[q][k];
+            a[p][k] = c * pk - s * qk;
+            a[q][k] = s * pk + c * qk;
+        }
+    }
+
+    matrix rows_{};
+};
+
+// Of a contact between i and j the relative motion is a part of i less a part of j: along the normal n v, along the
+// surface v - R w x n without its normal component, of rolling w. With (a - b)^2 <= 2 a^2 + 2 b^2 the energy of all
+// contacts is at most a sum over particles, and what each has is a form of its own 1, 3 or 6 velocities, scaled by the
+// roots of mass and inertia. A wall stands still: b is 0, and it counts half.
+
+/// What contacts and springs make of the motion of one particle: stiffness over mass [1/s^2], damping over mass [1/s].
+template <std::size_t N>
+struct particle_modes {
+    form<N> stiffness;
+    form<N> damping;
+};
+
+/// body(particle_modes) for each owned particle.
 template <class Run, class Body>
 void each_mode(const Run& of, Body&& body) {
     using simulation = typename Run::simulation_type;
     constexpr auto D = simulation::dimension;
-    using matrix = std::array<vec<D, double>, D>;
-    struct sums {
-        matrix stiffness{};
-        matrix damping{};
-    };
-    std::vector<sums> all(of.particles().owned_count());
-    const auto add = [&](index_t i, const vec<D, double>& n, double k, double c, double across = 0) {
-        if (static_cast<std::size_t>(i) >= all.size()) return;  // a ghost: its owner sees to it
-        auto& at = all[static_cast<std::size_t>(i)];
-        for (std::size_t a = 0; a < D; ++a)
-            for (std::size_t b = 0; b < D; ++b) {
-                at.stiffness[a][b] += (k - across) * n[a] * n[b] + (a == b ? across : 0);
-                at.damping[a][b] += c * n[a] * n[b];
+    constexpr std::size_t spins = simulation::turns ? spin_count<D> : 0;
+    constexpr std::size_t N = D + spins;
+    using spin_vector = vec<spins, double>;
+    constexpr std::size_t at_once = 65536;  // particles: their forms take 10 to 40 MB
+    const auto owned = of.particles().owned_count();
+    std::vector<particle_modes<N>> some;
+    for (std::size_t first = 0; first < owned; first += at_once) {
+        some.assign((std::min)(at_once, owned - first), {});
+        const auto mine = [&](index_t i) {  // neither of a later turn nor a ghost, which its owner sees to
+            return static_cast<std::size_t>(i) - first < some.size() && static_cast<std::size_t>(i) >= first;
+        };
+        /// Adds k and c along the direction `v` of the velocity and `w` of the spin.
+        const auto add = [&](index_t i, double k, double c, const vec<D, double>& v, const spin_vector& w) {
+            const double mass = of.mass(i);
+            if (!(mass <= (std::numeric_limits<double>::max)())) return;  // it does not move
+            const double per_root = 1 / std::sqrt(mass);
+            vec<N, double> g{};
+            for (std::size_t a = 0; a < D; ++a) g[a] = v[a] * per_root;
+            for (std::size_t a = 0; a < spins; ++a) g[D + a] = w[a] * per_root / (std::sqrt(sphere_inertia) * of.radius(i));
+            auto& at = some[static_cast<std::size_t>(i) - first];
+            if (k != 0) at.stiffness.add(2 * k, g);
+            if (c != 0) at.damping.add(2 * c, g);
+        };
+        if constexpr (simulation::has_contacts) {
+            using law_type = typename simulation::contact_type;
+            const auto& law = of.template model<law_type>();
+            of.each_contact([&](const contact_pair<D>& pair) {
+                const bool has_j = !pair.is_wall && mine(pair.j);
+                if (!mine(pair.i) && !has_j) return;
+                const auto& at = pair.at;
+                const double share = pair.is_wall ? 0.5 : 1;
+                const double k = share * law.normal().stiffness(at.overlap, at.radius);
+                const double c = share * law.normal().damping(at.overlap, at.mass, at.radius);
+                const auto both = [&](double stiffness, double damping, const auto& v, const auto& w) {
+                    if (mine(pair.i)) add(pair.i, stiffness, damping, v, w(pair.i, 1.0));
+                    if (has_j) add(pair.j, stiffness, damping, v, w(pair.j, -1.0));
+                };
+                const auto no_spin = [](index_t, double) { return spin_vector{}; };
+                both(k, c, at.normal, no_spin);
+                if constexpr (simulation::turns) {
+                    double k_t = 0;
+                    if constexpr (sticking_law<typename law_type::tangential_type>)
+                        k_t = share * law.tangential().stiffness(at.overlap, at.radius);
+                    const double c_t = share * law.tangential().viscosity(at.mass, c / share);
+                    for (std::size_t a = 0; a < D; ++a) {
+                        // Along axis a: e_a (v_t - R w x n), of j with the normal that points to it.
+                        vec<D, double> along{};
+                        along[a] = 1;
+                        const auto v = tangential<D, double>(along, at.normal);
+                        both(k_t, c_t, v, [&](index_t i, double side) {
+                            spin_vector w{};
+                            for (std::size_t b = 0; b < spins; ++b) {
+                                spin_vector one{};
+                                one[b] = 1;
+                                w[b] = -side * of.radius(i) * spin_across(one, at.normal)[a];
+                            }
+                            return w;
+                        });
+                    }
+                    if constexpr (law_type::rolling_type::resists) {
+                        const double k_r = share * law.rolling().stiffness(k / share, at.radius);
+                        const double c_r = share * law.rolling().viscosity(k / share, at.mass, at.radius);
+                        for (std::size_t a = 0; a < spins; ++a)
+                            both(k_r, c_r, vec<D, double>{}, [&](index_t, double) {
+                                spin_vector w{};
+                                w[a] = 1;
+                                if constexpr (D == 3) w = tangential<3, double>(w, at.normal);
+                                return w;
+                            });
+                    }
+                }
+            });
+        }
+        of.each_spring([&](index_t i, index_t j, const spring& one) {
+            if (!mine(i)) return;
+            auto n = of.apart(i, j);
+            double square = 0;
+            for (const double d : n) square += d * d;
+            const double distance = std::sqrt(square);
+            for (double& d : n) d /= distance;
+            add(i, one.k, 0, n, {});
+            // Stretched, it is stiff across too, as a string is.
+            const double across = one.k * (std::max)(0.0, 1 - one.length / distance);
+            for (std::size_t a = 0; a < D && across > 0; ++a) {
+                vec<D, double> along{};
+                along[a] = 1;
+                add(i, across, 0, tangential<D, double>(along, n), {});
             }
-    };
-    if constexpr (simulation::has_contacts) {
-        const auto& law = of.template model<typename simulation::contact_type>();
-        of.each_contact([&](const auto& pair) {
-            const auto& at = pair.at;
-            const double k = law.normal().stiffness(at.overlap, at.radius);
-            const double c = law.normal().damping(at.overlap, at.mass, at.radius);
-            // A wall does not move: half of what a partner that moves the other way would give.
-            const double share = pair.is_wall ? 0.5 : 1;
-            add(pair.i, at.normal, share * k, share * c);
-            if (!pair.is_wall) add(pair.j, at.normal, k, c);
-            [[maybe_unused]] const auto& friction = law.tangential();
-            double k_t = 0;
-            double c_t = 0;
-            if constexpr (sticking_law<typename simulation::contact_type::tangential_type>)
-                k_t = friction.stiffness(at.overlap, at.radius);
-            if constexpr (simulation::turns) c_t = friction.viscosity(at.mass, c);
-            // The slip of a solid sphere has the inertia m / (1 + 5/2).
-            if (at.mass > 0 && (k_t > 0 || c_t > 0)) body(3.5 * k_t / at.mass, 3.5 * c_t / at.mass);
         });
-    }
-    of.each_spring([&](index_t i, index_t j, const spring& one) {
-        auto n = of.apart(i, j);
-        double square = 0;
-        for (const double d : n) square += d * d;
-        const double distance = std::sqrt(square);
-        for (double& d : n) d /= distance;
-        // Stretched, it is stiff across too, as a string is.
-        add(i, n, one.k, 0, one.k * (std::max)(0.0, 1 - one.length / distance));
-    });
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const double m = of.mass(static_cast<index_t>(i));
-        body(2 * greatest_eigenvalue<D>(all[i].stiffness) / m, 2 * greatest_eigenvalue<D>(all[i].damping) / m);
+        for (const auto& one : some) body(one);
     }
 }
 /// The longest stable time step of what touches on this rank [s]; infinite if nothing does.
@@ -117,43 +202,47 @@ template <class Run>
 [[nodiscard]] double longest_time_step_here(const Run& of) {
     using simulation = typename Run::simulation_type;
     double longest = std::numeric_limits<double>::infinity();
-    const auto see = [&](double k, double c) {
-        // Where there is a dashpot and no spring, one that is too soft to matter.
+    const auto limit = [](double k, double c) {
+        // Where there is a dashpot and no spring: one so soft that it does not matter.
         const double omega = (std::max)(std::sqrt(k), 1e-6 * c);
-        if (omega > 0)
-            longest = (std::min)(longest, simulation::integrator_type::stable_until(c / (2 * omega)) / omega);
+        return omega > 0 ? simulation::integrator_type::stable_until(c / (2 * omega)) / omega
+                         : std::numeric_limits<double>::infinity();
     };
-    each_mode(of, see);
+    each_mode(of, [&](const auto& one) {
+        if (limit(one.stiffness.bound(), one.damping.bound()) < longest)  // eigenvalues cost: only where they may count
+            longest = (std::min)(longest, limit(one.stiffness.greatest(), one.damping.greatest()));
+    });
     if constexpr (simulation::has_contacts) {
-        // The first touch of the lightest, if the law is as stiff from there on: what will be where nothing
-        // touches.
+        // The first touch of the lightest, if the law is as stiff from there on: what will be where nothing touches.
         const auto& law = of.template model<typename simulation::contact_type>().normal();
         const auto owned = of.particles().owned_count();
         double lightest = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < owned; ++i) lightest = (std::min)(lightest, of.mass(static_cast<index_t>(i)));
         const double effective = lightest / (owned > 1 ? 2 : 1);
         if (effective <= (std::numeric_limits<double>::max)())
-            see(law.stiffness(0.0, 1.0) / effective, law.damping(0.0, effective, 1.0) / effective);
+            longest = (std::min)(longest, limit(law.stiffness(0.0, 1.0) / effective,
+                                                law.damping(0.0, effective, 1.0) / effective));
     }
     return longest;
 }
 
 }  // namespace detail
 
-/// An upper bound of the angular frequency of any mode of what touches, as stiff as it is at the moment [rad/s]:
-/// sqrt(2 max lambda_max(sum k n n^T) / m) of the forces along normals, and of springs, which are stiff across their
-/// length as well if they are stretched; or sqrt(7/2 k_t / m*) of a contact that sticks,
-/// whose slip has the mass 2/7 m*, if that is more.
+/// An upper bound of the angular frequency of any mode of what touches, as stiff as it is at the moment [rad/s]: the root of
+/// 2 max lambda_max(sum k g g^T), g what the motion of a particle is to a contact: along its normal, along its surface if
+/// there is a spring, and of rolling, over the roots of mass and inertia. All contacts count as sticking. Springs that are
+/// stretched are stiff across their length as well.
 ///
-/// Exact for the infinite chain and the FCC crystal. No bound where several contacts of one particle stick and k_t is
-/// above 2/7 of k_n.
-/// Collective: yes, one reduction. Complexity: O(contacts).
-/// Source: Rayleigh's quotient, with (n (x_i - x_j))^2 <= 2 (n x_i)^2 + 2 (n x_j)^2; a wall stands still, and counts
-/// half.
+/// Exact for the infinite chain and the FCC crystal without friction, for a contact by itself, and for a square lattice
+/// with friction.
+/// Collective: yes, one reduction. Complexity: O(contacts), in turns of 65536 particles, and eigenvalues of few.
+/// Source: Rayleigh's quotient, with (a - b)^2 <= 2 a^2 + 2 b^2.
 template <class Run>
 [[nodiscard]] double greatest_frequency(const Run& of) {
     double square = 0;
-    detail::each_mode(of, [&](double k, double) { square = (std::max)(square, k); });
+    detail::each_mode(of, [&](const auto& one) {
+        if (one.stiffness.bound() > square) square = (std::max)(square, one.stiffness.greatest());
+    });
     of.on().reduce(std::span<double>(&square, 1), reduction::greatest);
     return std::sqrt(square);
 }
@@ -164,10 +253,9 @@ template <class Run>
 ///
 /// Each particle gives bounds omega and c of the frequency and the damping rate of its modes, as greatest_frequency
 /// does; the step is the least integrator::stable_until(c / (2 omega)) / omega. For velocity_verlet and
-/// symplectic_euler that is a bound of any packing whose contacts do not stick, since theirs is
-/// dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over contacts. A law that is linear from the first touch counts with two of
-/// the lightest particles, even if none touch.
-/// Collective: yes, one reduction. Complexity: O(contacts).
+/// symplectic_euler that is a bound of any packing, since theirs is dt^2 omega^2 / 4 + dt c / 2 <= 1, a sum over
+/// contacts. A law that is linear from the first touch counts with two of the lightest particles, even if none touch.
+/// Collective: yes, one reduction. Complexity: as greatest_frequency.
 template <class Run>
 [[nodiscard]] double longest_time_step(const Run& of) {
     double shortest = -detail::longest_time_step_here(of);

@@ -13,7 +13,8 @@ namespace tsubu::dem {
 
 /// A kick with the forces of the old positions, then a drift with the new velocities.
 ///
-/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own. Order: 1; energy does not drift.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own; deterministic.
+/// Order: 1; energy does not drift.
 /// Choose it to reproduce codes that have it. Do not otherwise: velocity_verlet costs the same and has order 2.
 struct symplectic_euler {
     static constexpr unsigned force_evaluations = 1;

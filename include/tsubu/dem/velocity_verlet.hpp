@@ -13,7 +13,7 @@ namespace tsubu::dem {
 
 /// Half a kick, a drift, half a kick; damping sees the velocities of the half step, as in LAMMPS.
 ///
-/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own.
+/// Concept: integrator. Cost: one force evaluation per step; bytes: none of its own; deterministic.
 /// Order: 2, or what the contact allows; 1 with a dashpot. Stable for omega dt < 2 (sqrt(1 + z^2) - z), z the damping
 /// ratio.
 /// Choose it unless a measurement says otherwise: at equal cost nothing is more accurate in collisions.

@@ -34,7 +34,7 @@ namespace tsubu {
 /// built in two thirds of the time, and lets each force be computed once.
 ///
 /// Bytes:   4 to 4.5 per neighbour (each pair of owned particles is two) and 8 per owned particle; while it is built
-///          8 D + 12 per particle, and 4 to 20 for cells. A pair_list has 8 to 9 per pair, and none per particle.
+///          D coordinates and 12 bytes per particle, and 4 to 20 for cells. A pair_list has 8 to 9 per pair, and none per particle.
 /// Threads: many readers or one writer.
 class neighbor_list {
 public:

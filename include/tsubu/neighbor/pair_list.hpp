@@ -36,7 +36,7 @@ struct index_pair {
 /// Choose it where what i does to j is the opposite of what j does to i. Do not where each particle gathers from all of
 /// its neighbours, or threads write to one particle each: neighbor_list.
 ///
-/// Bytes:   8 to 9 per pair; while it is built 8 D + 12 per particle, and 4 to 20 for cells.
+/// Bytes:   8 to 9 per pair; while it is built D coordinates and 12 bytes per particle, and 4 to 20 for cells.
 /// Threads: many readers or one writer.
 class pair_list {
 public:

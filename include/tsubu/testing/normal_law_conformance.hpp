@@ -58,14 +58,18 @@ void check_normal_law(const Law& law, double most, Check&& check, std::uint64_t 
         const double slope = (8 * (law.elastic(d + h, radius) - law.elastic(d - h, radius)) -
                               (law.elastic(d + 2 * h, radius) - law.elastic(d - 2 * h, radius))) /
                              (12 * h);
-        report(is_near(law.stiffness(d, radius), slope, 1e-8, 0), normal_law_text::stiffness, d);
-        // The work from d/2 to d, by Simpson's rule.
-        constexpr int parts = 64;
+        // Where the law has a kink within the difference, the slope is between those of its sides, or not far.
+        const double before = law.stiffness(d - 2 * h, radius);
+        const double after = law.stiffness(d + 2 * h, radius);
+        const double kink = std::abs(after - before) > 0.02 * std::abs(before) ? std::abs(after - before) : 0;
+        report(is_near(law.stiffness(d, radius), slope, 1e-8, 1.2 * kink), normal_law_text::stiffness, d);
+        // The work from d/2 to d, by Simpson's rule, whose error is 1e-7 where the law has a kink.
+        constexpr int parts = 512;
         double work = 0;
         for (int n = 0; n <= parts; ++n)
             work += (n == 0 || n == parts ? 1 : n % 2 == 1 ? 4 : 2) * law.elastic(d / 2 + d / 2 * n / parts, radius);
         work *= d / 2 / parts / 3;
-        report(is_near(law.energy(d, radius) - law.energy(d / 2, radius), work, 1e-8, 0), normal_law_text::energy, d);
+        report(is_near(law.energy(d, radius) - law.energy(d / 2, radius), work, 1e-6, 0), normal_law_text::energy, d);
 
         const double damping = law.damping(d, mass, radius);
         report(Law::is_damped ? damping >= 0 : damping == 0, normal_law_text::damping, d);

@@ -206,6 +206,7 @@ TEST_CASE("the longest time step knows of friction that sticks, and of its dashp
         add(stiff.particles(), 1, {5, 3}, {0, 0});
         add(stiff.particles(), 2, {5.99, 3}, {0, 0});
         stiff.start();
+        // Along the surface: the slip of a solid sphere has the inertia m / (1 + 5/2).
         const double omega = std::sqrt(3.5 * 8e3 / .5);
         const double ratio = 3.5 * 300 / (2 * omega);
         CHECK(greatest_frequency(stiff) == Approx(omega).epsilon(1e-12));

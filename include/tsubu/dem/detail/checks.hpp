@@ -27,10 +27,6 @@
 
 namespace tsubu::dem::detail {
 
-template <class Model>
-void check_model(const Model& one) {
-    if constexpr (requires { one.check(); }) one.check();
-}
 /// The walls in the dimensions of the scene.
 template <class Simulation>
 [[nodiscard]] std::vector<wall_plane<Simulation::dimension>> walls_of(const typename Simulation::models_type& models) {
@@ -159,6 +155,9 @@ private:
     }
     void check_time_step(std::uint64_t step) const {
         const double longest = longest_time_step_here(of_);
+        if (longest == 0)
+            refuse(step, "no time step is stable with this integrator and contacts without damping",
+                   "take velocity_verlet; to see what happens, switch guards::time_step off");
         if (!(of_.how().time_step <= longest))
             refuse(step,
                    "a time step of " + tsubu::detail::shown(of_.how().time_step) +

@@ -176,6 +176,7 @@ private:
         return width * static_cast<double>(D);
     }
     void find_pairs(store_type& store) {
+        if (store.size() == 0) return;  // then nothing tells a reach
         const auto build = [&](const auto& x) {
             if constexpr (bodies_type::are_equal)
                 pairs_.build(x, store.owned_count(), same_reach{2 * bodies_.radius + how_.skin});
@@ -236,6 +237,13 @@ private:
                                                           std::to_string(spring_kinds_) + " kinds of springs",
                                                       "give a spring for each type of bond");
                 const auto here = static_cast<index_t>(i);
+                const auto self = store[tsubu::id][i];
+                if ((one.ids[0] == self) == (one.ids[1] == self))
+                    tsubu::detail::raise<input_error>(
+                        "dem::springs",
+                        "particle " + std::to_string(self) + " has a bond between " + std::to_string(one.ids[0]) + " and " +
+                            std::to_string(one.ids[1]),
+                        "give each particle the bonds between itself and another, and each of the two has it");
                 springs_.push_back(
                     {here, places[0] == here ? places[1] : places[0], static_cast<index_t>(one.type - 1)});
             }

@@ -72,7 +72,11 @@ template <class Law>
 concept gives_torques =
     rolling_law_of<Law, 2, double> && rolling_law_of<Law, 3, double> && rolling_law_of<Law, 3, float> &&
     rolling_law_of<Law, 3, lanes<double>> && rolling_law_of<Law, 3, lanes<float>> &&
-    requires(const Law& law) { { law.mu_r } -> std::convertible_to<double>; };
+    requires(const Law& law, double number) {
+        { law.mu_r } -> std::convertible_to<double>;
+        { law.stiffness(number, number) } -> std::same_as<double>;
+        { law.viscosity(number, number, number) } -> std::same_as<double>;
+    };
 template <class Law, class Real>
 concept pulls_by = requires(const Law& law, const Real& number) {
     { law.pull(number) } -> std::same_as<Real>;

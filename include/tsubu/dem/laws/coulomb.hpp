@@ -22,7 +22,7 @@ namespace tsubu::dem {
 /// Bytes:         none per contact; spins and torques per particle.
 /// Deterministic: yes.
 /// Choose it in rapid flow, where contacts slide; with any normal law.
-/// Do not where something is to rest on a slope: it creeps at a speed of g sin(theta) / gamma_t.
+/// Do not where something is to rest on a slope: what does not roll creeps at g sin(theta) / gamma_t.
 /// Source:        Haff & Werner 1986, Powder Technology 48, 239.
 struct coulomb {
     static constexpr auto role = contact_role::tangential;

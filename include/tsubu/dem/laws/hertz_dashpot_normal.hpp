@@ -18,7 +18,8 @@ namespace tsubu::dem {
 /// Cost:          one root and eight products per contact in 3-D; the velocities of ghosts are sent.
 /// Bytes:         none per contact.
 /// Deterministic: yes.
-/// Choose it to compare with LAMMPS' gran/hertz/history, or for an order of 1.5.
+/// Choose it to compare with LAMMPS' gran/hertz/history, or, with implicit_velocity_verlet,
+/// for an order of 1.5.
 /// Do not where the restitution is to be the same at all speeds: hertz_tsuji_normal.
 /// Source:        Brilliantov, Spahn, Hertzsch & Poschel 1996, doi:10.1103/PhysRevE.53.5382.
 struct hertz_dashpot_normal {

@@ -17,7 +17,7 @@ namespace tsubu::dem {
 /// Bytes:         none per contact.
 /// Deterministic: yes.
 /// Choose it where the time of contact is to depend on the speed of impact, as it does: impacts, waves.
-/// Do not for large beds of soft spheres: a Hookean contact costs no root, and allows a longer step.
+/// Do not where only bulk flow counts: a Hookean contact has a time of its own, by which to choose the step.
 /// Source:        Hertz 1882, doi:10.1515/crll.1882.92.156.
 struct hertz_normal {
     static constexpr bool is_damped = false;

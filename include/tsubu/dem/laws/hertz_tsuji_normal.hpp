@@ -20,7 +20,8 @@ namespace tsubu::dem {
 /// Bytes:         none per contact.
 /// Deterministic: yes.
 /// Choose it for Hertzian spheres that lose energy.
-/// Do not expect an order above 1.25 of any integrator: the damping begins with an infinite slope.
+/// Do not expect an order above 1.25 of any integrator, or above 1 of velocity_verlet: the damping begins with an
+/// infinite slope.
 /// Source:        Tsuji, Tanaka & Ishida 1992, doi:10.1016/0032-5910(92)88030-L; Antypov & Elliott 2011,
 ///                doi:10.1209/0295-5075/94/50004.
 struct hertz_tsuji_normal {

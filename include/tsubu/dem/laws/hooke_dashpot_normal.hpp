@@ -18,7 +18,8 @@ namespace tsubu::dem {
 /// Deterministic: yes.
 /// Choose it where all collisions are to have the same restitution, whatever their speed: e = exp(-beta t_c),
 /// t_c = pi / sqrt(k/m* - beta^2), beta = gamma / 2.
-/// Do not for an accuracy beyond 1e-2: a jump at the touch makes every scheme first order.
+/// Do not where it is to be accurate in few steps per contact: the jump at the touch makes every scheme first
+/// order.
 /// Source:        Cundall & Strack 1979, doi:10.1680/geot.1979.29.1.47; gamma as LAMMPS' pair_style gran/hooke has it.
 struct hooke_dashpot_normal {
     static constexpr bool is_damped = true;

@@ -10,6 +10,7 @@
 #include <tsubu/dem/laws/concepts.hpp>
 #include <tsubu/dem/vector_algebra.hpp>
 
+#include <cmath>    // std::sqrt
 #include <cstddef>  // std::size_t
 
 namespace tsubu::dem {
@@ -35,6 +36,14 @@ struct rolling_resistance {
     void check() const {
         detail::check_positive("dem::rolling_resistance", "coefficient mu_r", mu_r, "");
         detail::check_not_negative("dem::rolling_resistance", "damping eta_r", eta_r, "");
+    }
+    /// Of the rotational spring [N m/rad].
+    [[nodiscard]] double stiffness(double normal_stiffness, double radius) const noexcept {
+        return 2.25 * normal_stiffness * mu_r * radius * mu_r * radius;
+    }
+    /// Of its dashpot [N m s/rad].
+    [[nodiscard]] double viscosity(double normal_stiffness, double mass, double radius) const noexcept {
+        return 2 * eta_r * std::sqrt(1.4 * mass * radius * radius * stiffness(normal_stiffness, radius));
     }
     template <std::size_t D, class Real>
     [[nodiscard, gnu::always_inline]] vec<spin_count<D>, Real> torque(const contact<D, Real>& at,

@@ -31,11 +31,14 @@ struct oblique_scene {
     double radius = 0.5;      ///< [m]
     double mass = 1;          ///< [kg]
     double phase = 0.5;       ///< share of a step from the beginning to the touch
+    bool is_watched = true;   ///< whether a time step past the limit is refused
 
     [[nodiscard]] auto box() const {
         return scene_box<simulation>({-100 * radius, -2 * radius}, {100 * radius, 10 * radius});
     }
-    [[nodiscard]] options how() const { return {.time_step = time_step, .skin = radius}; }
+    [[nodiscard]] options how() const {
+        return {.time_step = time_step, .skin = radius, .guard = is_watched ? guards{} : no_guards};
+    }
     [[nodiscard]] auto models() const {
         return std::tuple(law, walls{{{.point = {0, 0}, .normal = {0, 1}}}}, equal_spheres{radius, mass});
     }
@@ -50,7 +53,8 @@ struct oblique_scene {
 /// A sphere on a floor under gravity, which may be a slope: it begins at rest or sliding, pressed in as far as its
 /// weight presses it.
 ///
-/// Reference: slip_to_roll; on a slope a creep of g sin(theta) / gamma_t without memory, rest with.
+/// Reference: slip_to_roll; on a slope it rolls, at 5/7 g sin(theta). Kept from rolling by rolling_resistance it creeps
+/// at g sin(theta) / gamma_t with coulomb, and rests with linear_history.
 template <class Law = hooke_dashpot<coulomb>, class Integrator = velocity_verlet, class Number = double>
 struct floor_scene {
     using simulation = dem::simulation<2, Number, Integrator, Law, walls, gravity>;
@@ -63,11 +67,14 @@ struct floor_scene {
     double stiffness = 2e5;      ///< of the normal spring, for how far its weight presses it in [N/m]
     double radius = 0.5;         ///< [m]
     double mass = 1;             ///< [kg]
+    bool is_watched = true;      ///< whether a time step past the limit is refused
 
     [[nodiscard]] auto box() const {
         return scene_box<simulation>({-1000 * radius, -2 * radius}, {1000 * radius, 10 * radius});
     }
-    [[nodiscard]] options how() const { return {.time_step = time_step, .skin = radius}; }
+    [[nodiscard]] options how() const {
+        return {.time_step = time_step, .skin = radius, .guard = is_watched ? guards{} : no_guards};
+    }
     [[nodiscard]] auto models() const {
         return std::tuple(law, walls{{{.point = {0, 0}, .normal = {0, 1}}}},
                           gravity{{acceleration * std::sin(slope), -acceleration * std::cos(slope)}},

@@ -298,6 +298,7 @@ TEST_CASE("bonds without a spring, and springs that are out of reach, are refuse
         return texts[0];
     };
     CHECK(said(1, 1, 1.5, 1) == "nothing was thrown");
+    CHECK(says(said(1, 0, 2, 1), "has a bond between 0 and 0"));
     CHECK(says(said(-1, 1, 1.5, 1),
                "dem::springs: springs of type 1 with k = -1 N/m and length 1 m; give finite numbers"));
     const auto unknown = said(1, 1, 1.5, 0);

@@ -3,6 +3,9 @@
 #include <tsubu/dem/run.hpp>
 
 #include <tsubu/comm/local_transport.hpp>
+#include <tsubu/core/random.hpp>
+#include <tsubu/dem/laws/rolling_resistance.hpp>
+#include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/pefrl.hpp>
 #include <tsubu/dem/springs.hpp>
 #include <tsubu/dem/stability.hpp>
@@ -15,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -234,5 +238,56 @@ TEST_CASE("a stretched spring is stiff across its length too", "[dem][run][guard
         CHECK(frequency(1) == Approx(std::sqrt(4 * 100.0)));
         CHECK(frequency(0) == Approx(std::sqrt(8 * 100.0)));
         CHECK(frequency(.5) == Approx(std::sqrt(6 * 100.0)));
+    });
+}
+TEST_CASE("a packing that sticks and rolls is as stable as it is told to be", "[dem][run][guards]") {
+    // A square lattice, periodic, all but at rest: its fastest mode has all spins alike, 20 k_t / m; or neighbours that
+    // roll against each other.
+    using bed = simulation<2, double, velocity_verlet, hooke_dashpot<linear_history, rolling_resistance>, equal_spheres>;
+    const auto grows = [](const rolling_resistance& rolling, double k_t, double gamma_t, double share) {
+        double energies[2] = {};
+        tsubu::run_ranks(1, [&](local_transport& on) {
+            const bed::contact_type of{{.k = 1e4, .gamma = 0}, {.k_t = k_t, .mu = 1e9, .gamma_t = gamma_t}, rolling};
+            const auto made = [&](double time_step) {
+                auto lattice = std::make_unique<run<bed, local_transport>>(
+                    bed::box_type({0, 0}, {5.94, 5.94}, {.periodic = {true, true}}),
+                    options{.time_step = time_step, .skin = .05, .guard = no_guards}, on, of,
+                    equal_spheres{.radius = .5, .mass = 1});
+                tsubu::random_stream random(5);
+                for (int n = 0; n < 36; ++n)
+                    lattice->particles().push_back(
+                        tsubu::id = n, tsubu::position<2> = {.495 + .99 * (n % 6), .495 + .99 * (n / 6)},
+                        tsubu::velocity<2> = {1e-6 * (random.unit() - .5), 1e-6 * (random.unit() - .5)},
+                        tsubu::angular_velocity<2> = {1e-6 * (1 + random.unit())});
+                lattice->start();
+                return lattice;
+            };
+            const double limit = longest_time_step(*made(1e-9));
+            if (gamma_t == 0 && rolling.mu_r < .1) CHECK(limit == Approx(2 / std::sqrt(20 * k_t)).epsilon(1e-3));
+            const auto lattice = made(share * limit);
+            for (double& energy : energies) {
+                energy = kinetic_energy(*lattice) + rotational_energy(*lattice);
+                lattice->steps(400);
+            }
+        });
+        return !(energies[1] < 1e3 * energies[0]);
+    };
+    const rolling_resistance little{.mu_r = 1e-3};
+    CHECK_FALSE(grows(little, 2e4 / 7, 0, .99));
+    CHECK(grows(little, 2e4 / 7, 0, 1.01));
+    CHECK_FALSE(grows(little, 2e4 / 7, 1e4, .99));
+    CHECK(grows(little, 2e4 / 7, 1e4, 1.02));
+    CHECK_FALSE(grows({.mu_r = 1}, 1e3, 0, .99));
+    CHECK(grows({.mu_r = 1}, 1e3, 0, 1.25));
+}
+TEST_CASE("memory may be reserved while a run goes on", "[dem][run]") {
+    tsubu::run_ranks(2, [](local_transport& on) {
+        auto row = empty_run(on);
+        if (on.rank() == 0) add_row_and_bystanders(row.particles());
+        row.start();
+        row.steps(10);
+        row.particles().reserve(10000);
+        row.steps(10);
+        CHECK(particle_count(row) == 5);
     });
 }

@@ -28,8 +28,6 @@ LOST = 1e9        # an error that is none any more
 # 5 units in the last place of a coordinate, by the greatest overlap of 1.58e-3 m: at 0.5 m, and in a box of 4 m
 FLOORS = {"float": 5 * 2.0**-24 / 1.58e-3, "lattice<int32>": 5 * 4 * 2.0**-32 / 1.58e-3}
 FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
-FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
-FLOOR_COLOURS = {"float": "#e377a2", "lattice<int32>": "#8a5a2b"}
 
 RUNGS = {  # name: label; base: which rung it is compared with stands in the rows
     "motion": "motion alone, no contacts", "hooke": "Hooke", "dashpot": "+ dashpot", "coulomb": "+ rotation, Coulomb",
@@ -154,12 +152,12 @@ def all_claims(results):
     claims = []
     frictionless, others = (Claim(f"LAMMPS / tsubu, time of a step, {text}", promise) for text, promise in
                             (("frictionless", 2), ("with friction", 1.5)))
-    memory = Claim("LAMMPS / tsubu, bytes per particle", BYTES_PROMISE)
+    memory = Claim("LAMMPS / tsubu, resident bytes per particle", BYTES_PROMISE)
     same = Claim("Digits of the kinetic energy that are those of LAMMPS", SAME_PROMISE, "")
     for scene in results.scenes():
         label, promise, _ = SCENES[scene]
         (frictionless if promise == 2 else others).add(results.speedup(scene), label)
-        ours, theirs = (results.field("bytes", "beside", scene, who, "double") for who in ("tsubu", "lammps"))
+        ours, theirs = (results.field("resident", "beside", scene, who, "double") for who in ("tsubu", "lammps"))
         if ours and theirs:
             memory.add(theirs / ours, label)
         difference = results.field("difference", "same", scene, "kinetic", "double")
@@ -550,6 +548,8 @@ def costs_at(results, task, case, tolerance, cost_task, cost_case, per_step):
     """[(µs per simulated second and particle, steps, integrator, number)], the cheapest first."""
     found = []
     for integrator, number, *_ in results.series(task, case):
+        if number == "float":  # holds near the origin only: never a first choice
+            continue
         steps = cheapest(results.errors(task, case, integrator, number), tolerance)
         time = results.time(cost_task, cost_case, integrator, number)
         if steps and time:
@@ -563,14 +563,12 @@ def choice_of(results, task, case, tolerance, cost_task, cost_case, per_step, wh
         return f"No curve reaches {what} of {tolerance:g}."
     best = found[0]
     others = [f for f in found if f[3] == "double" and f[2] not in (best[2],)]
-    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with {best[1]:.4g} steps of a contact: "
+    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with about {best[1]:.0f} steps of a contact: "
             f"{figure_of(best[0])} µs per simulated second and particle")
     if others:
         ratio = others[0][0] / best[0]
         text += (f"; {label_of(*others[0][2:])} costs the same" if limits(ratio)[0] < 1.05 else
                  f"; next is {label_of(*others[0][2:])}, {figure_of(ratio)} times that")
-    if best[3] == "float":
-        text += "; floats hold near the origin only"
     return text + "."
 
 
@@ -701,17 +699,17 @@ def beside_table(results):
     rows = []
     for scene in results.scenes():
         ours, theirs = (results.time("beside", scene, who, "double") for who in ("tsubu", "lammps"))
-        sizes = [results.field("bytes", "beside", scene, who, "double") for who in ("tsubu", "lammps")]
-        resident = results.field("resident", "beside", scene, "lammps", "double")
+        sizes = [results.field(what, "beside", scene, who, "double") for what in ("bytes", "resident")
+                 for who in ("tsubu", "lammps")]
         difference = results.field("difference", "same", scene, "kinetic", "double")
         cells = [SCENES[scene][0], cost_cell(ours), cost_cell(theirs), ratio_cell(results.speedup(scene)),
                  f'<td class="figure">{1e3 / ours:.1f}</td>',
                  f'<td class="figure">{1e3 / theirs:.1f}</td>' if theirs else ""]
-        cells += [f'<td class="figure">{s:.0f}</td>' if s else "" for s in (*sizes, resident)]
+        cells += [f'<td class="figure">{s:.0f}</td>' if s else "" for s in sizes]
         cells.append(f'<td class="figure">{difference:.0e}</td>' if difference is not None else "")
         rows.append(cells)
     return table(["Scene", "tsubu, ns", "LAMMPS, ns", "LAMMPS / tsubu", "tsubu, M/s", "LAMMPS, M/s", "Bytes, tsubu",
-                  "Bytes, LAMMPS", "resident", "Energies differ by"], rows)
+                  "Bytes, LAMMPS", "resident, tsubu", "resident, LAMMPS", "Energies differ by"], rows)
 
 
 def beside_sentence(results):
@@ -743,7 +741,7 @@ WORK_TEXT = (
     "needs a damped law, and is left out of the others; numbers other than double are shown with velocity Verlet "
     "only, since rounding does not depend on the integrator.")
 OBLIQUE_TEXT = (
-    "A sphere hits a floor at 45 degrees, and rolls off (μ = 0.5) or slides (μ = 0.2): rms error of its velocity and "
+    "A sphere hits a floor at 45 degrees, and sticks (μ = 0.5) or slides (μ = 0.2): rms error of its velocity and "
     "of the velocity of its surface. Integrators with several stages and those that move no spins do not compile with "
     "a contact that remembers; a lattice is periodic, and a floor is not; Hertz and Mindlin have no closed form.")
 GAS_TEXT = (
@@ -761,7 +759,8 @@ LADDER_TEXT = (
 BESIDE_TEXT = (
     "Both begin from the same doubles and do the same steps, each turn anew. With Hertz, Mindlin and Tsuji LAMMPS "
     "turns the spring of a contact before it lengthens it, and not after, so that energies differ in more than "
-    "rounding.")
+    "rounding. Bytes are those that each program tells, of particles and lists; resident is by how much its memory grew "
+    "in all.")
 
 
 def figure_element(figure, pyplot, title):
@@ -848,6 +847,10 @@ def sections(results, pyplot):
     if results.has("ladder"):
         parts.append(text(LADDER_TEXT) + text(ladder_sentence(results)) +
                      figure_element(ladder_chart(results, pyplot), pyplot, "ladder") + ladder_table(results))
+    half, full = (results.time("lists", "bed", which, "double") for which in ("half", "full"))
+    if half and full:
+        parts.append(text(f"To build a list of neighbours of that bed takes {figure_of(half)} ns per particle if each "
+                          f"pair is in it once, and {figure_of(full)} ns if both sides have it."))
     if results.has("hand"):
         parts.append("<h3>Loops by hand</h3>" + text(
             "Spheres of the same bed, with a spring and a dashpot, and nothing around them: what one would write for "
@@ -872,10 +875,10 @@ def markdown(results):
     lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, commit {context['commit']}.", ""]
     if results.scenes():
         lines += [markdown_row(["scene", "tsubu, ns per particle-step", "LAMMPS", "LAMMPS / tsubu",
-                                "bytes per particle", "LAMMPS"]), "|" + "---|" * 6]
+                                "resident bytes per particle", "LAMMPS"]), "|" + "---|" * 6]
         for scene in results.scenes():
             ours, theirs = (results.time("beside", scene, who, "double") for who in ("tsubu", "lammps"))
-            sizes = [results.field("bytes", "beside", scene, who, "double") for who in ("tsubu", "lammps")]
+            sizes = [results.field("resident", "beside", scene, who, "double") for who in ("tsubu", "lammps")]
             lines.append(markdown_row([SCENES[scene][0], figure_of(ours), figure_of(theirs) if theirs else "",
                                        f"{figure_of(results.speedup(scene))}x" if theirs else "",
                                        *(f"{s:.0f}" if s else "" for s in sizes)]))

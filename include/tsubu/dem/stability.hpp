@@ -90,7 +90,7 @@ private:
 
 // Of a contact between i and j the relative motion is a part of i less a part of j: along the normal n v, along the
 // surface v - R w x n without its normal component, of rolling w. With (a - b)^2 <= 2 a^2 + 2 b^2 the energy of all
-// contacts is at most a sum over particles, and what each has is a form of its own 1, 3 or 6 velocities, scaled by the
+// contacts is at most a sum over particles, and what each has is a form of its own velocity and spin, scaled by the
 // roots of mass and inertia. A wall stands still: b is 0, and it counts half.
 
 /// What contacts and springs make of the motion of one particle: stiffness over mass [1/s^2], damping over mass [1/s].
@@ -116,7 +116,7 @@ void each_mode(const Run& of, Body&& body) {
         const auto mine = [&](index_t i) {  // neither of a later turn nor a ghost, which its owner sees to
             return static_cast<std::size_t>(i) - first < some.size() && static_cast<std::size_t>(i) >= first;
         };
-        /// Adds k and c along the direction `v` of the velocity and `w` of the spin.
+        // Adds k and c along the direction `v` of the velocity and `w` of the spin.
         const auto add = [&](index_t i, double k, double c, const vec<D, double>& v, const spin_vector& w) {
             const double mass = of.mass(i);
             if (!(mass <= (std::numeric_limits<double>::max)())) return;  // it does not move

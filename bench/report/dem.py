@@ -503,7 +503,7 @@ def beside_chart(results, pyplot):
             time = results.time("beside", scene, who, "double")
             if not time:
                 continue
-            size = results.field("bytes", "beside", scene, who, "double")
+            size = results.field("resident", "beside", scene, who, "double")
             times.barh(k + up, time, height=.36, color=colour, zorder=3, label=label if k == 0 else None)
             times.plot([time.low, time.high], [k + up, k + up], color=INK, linewidth=1, zorder=4)
             ratio = results.speedup(scene)
@@ -516,7 +516,7 @@ def beside_chart(results, pyplot):
     times.set_yticks(range(len(scenes)), [SCENES[s][0] for s in scenes])
     times.set_ylim(len(scenes) - .4, -.6)
     times.set_xlabel("ns per particle-step")
-    sizes.set_xlabel("bytes per particle")
+    sizes.set_xlabel("resident bytes per particle")
     times.set_xlim(0, times.get_xlim()[1] * 1.3)
     sizes.set_xlim(0, sizes.get_xlim()[1] * 1.1)
     for axes in (times, sizes):
@@ -533,6 +533,10 @@ def readme_picture(results, path, pyplot):
         raise Refusal("no scene beside LAMMPS in these results: nothing to draw")
     figure = beside_chart(results, pyplot)
     figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace(GRID, "#d8dce2"))
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -806,7 +810,7 @@ def sections(results, pyplot):
     if results.has("oblique"):
         parts.append("<h3>Oblique impact</h3>" + text(OBLIQUE_TEXT))
         step = 1e-3 / (math.pi / math.sqrt(2e5))
-        for case, label in (("rolls", "it rolls off"), ("slides", "it slides")):
+        for case, label in (("rolls", "it sticks"), ("slides", "it slides")):
             parts.append(text(choice_of(results, "oblique", case, TOLERANCE, "oblique_cost", "all", step,
                                         f"an error ({label})")) +
                          figure_element(work_precision(results, "oblique", case, f"Oblique impact, {label}", pyplot,

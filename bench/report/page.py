@@ -199,7 +199,7 @@ h1 { font-size: 1.6rem; } h2 { margin-top: 2.6rem; border-bottom: 1px solid var(
 p, li { max-width: 78ch; } nav a { margin-right: 1em; } a { color: inherit; }
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(560px, 100%), 1fr)); gap: 1.4rem 2rem;
           align-items: start; }
-figure { margin: 0; min-width: 0; } svg { height: auto; display: block; }
+figure { margin: 0; min-width: 0; overflow-x: auto; } svg { height: auto; display: block; min-width: 34rem; }
 .scroll { overflow-x: auto; } details { margin: .3rem 0 0; } summary { cursor: pointer; font-size: 13px; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; margin: .5rem 0; }
 th, td { padding: .2rem .6rem; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; }

@@ -81,7 +81,7 @@ concept number_policy = requires {
 static_assert(number_policy<double> && number_policy<mixed_precision<double, float>> &&
               number_policy<lattice<std::int32_t>> && number_policy<in_cells<float>>);
 
-/// The history of a contact, as a particle carries it: with whom, and the springs that the laws have stretched there.
+/// The history of a contact, as a particle carries it: with whom, and the history that the laws have there.
 ///
 /// @tparam Count  how many numbers
 template <class Real, std::size_t Count>

@@ -33,7 +33,9 @@
 namespace tsubu::dem {
 
 template <class Simulation, transport Transport>
-class run;
+class run {
+    static_assert(sizeof(Simulation) == 0, "what runs is a tsubu::dem::simulation<D, Number, Integrator, Models...>");
+};
 
 /// A scene with its particles on the ranks of a transport.
 ///
@@ -84,7 +86,7 @@ public:
     [[nodiscard]] std::uint64_t renewals() const noexcept { return near_.renewals(); }
     /// Which particles are near each other.
     [[nodiscard]] std::span<const index_pair> pairs() const noexcept { return near_.pairs(); }
-    /// What particles, lists of neighbours and histories of contacts take on this rank, without halo and id maps [bytes].
+    /// What particles, lists and histories of contacts take on this rank, without halo and id maps [bytes].
     [[nodiscard]] std::size_t memory_bytes() const noexcept { return store_.memory_bytes() + near_.memory_bytes(); }
 
     /// Particles go to their ranks, neighbours are found, and forces computed. Contacts begin without a history, but

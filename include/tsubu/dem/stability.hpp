@@ -197,6 +197,7 @@ void each_mode(const Run& of, Body&& body) {
         for (const auto& one : some) body(one);
     }
 }
+
 /// The longest stable time step of what touches on this rank [s]; infinite if nothing does.
 template <class Run>
 [[nodiscard]] double longest_time_step_here(const Run& of) {
@@ -246,6 +247,7 @@ template <class Run>
     of.on().reduce(std::span<double>(&square, 1), reduction::greatest);
     return std::sqrt(square);
 }
+
 /// The longest time step at which what touches, as stiff and as damped as it is at the moment, is stable with the
 /// integrator of the scene [s]; infinite if nothing touches, and the law begins softly.
 ///

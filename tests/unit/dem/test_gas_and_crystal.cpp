@@ -120,7 +120,7 @@ TEST_CASE("the energy of a gas drifts by a power of the time step above four", "
     CHECK(std::log(coarse / finer) / std::log(7.37 / 5.37) == Approx(4.3).margin(.8));
     CHECK(std::abs(drift(20.37)) < 1e-3);
 }
-TEST_CASE("a gas conserves what it should over a million steps", "[dem][reference][slow]") {
+TEST_CASE("a small gas conserves what it should over a million steps", "[dem][reference][slow]") {
     tsubu::self_transport on;
     const auto gas = stage(elastic_gas(40.37, 5), on);
     const double energy = energy_of(*gas);

@@ -111,15 +111,15 @@ public:
         pairs_ = history_table<history_size, real>(pairs.size());
         walls_ = history_table<history_size, real>(at_walls.size());
         const auto held = store[contacts];
-        std::vector<std::int64_t> partners;
+        std::vector<std::int64_t> wanted;
         for (std::size_t i = 0; i < store.owned_count(); ++i)
-            for (const auto& one : held[i]) partners.push_back(one.partner);
-        if (partners.empty()) return;
+            for (const auto& one : held[i]) wanted.push_back(one.partner);
+        if (wanted.empty()) return;
 
         const auto ids = store[tsubu::id];
         where_.rebuild(ids.span());
-        std::vector<index_t> found(partners.size());
-        where_.find(partners, found);
+        std::vector<index_t> found(wanted.size());
+        where_.find(wanted, found);
         const rows by_first(pairs, store.owned_count());
         std::size_t at = 0;
         for (std::size_t i = 0; i < store.owned_count(); ++i) {

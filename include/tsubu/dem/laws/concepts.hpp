@@ -135,7 +135,7 @@ concept normal_law = std::semiregular<Law> && detail::normal_law_of<Law, double>
 ///     the law answers the same;
 ///  5. seen from j, with normal, velocity and history the other way round, force and history are the opposite,
 ///     exactly: across a border between ranks each computes its own side;
-///  6. lanes of numbers have the same results as the numbers, bit for bit;
+///  6. lanes of numbers have the same results as the numbers, bit for bit, unless built to fuse products;
 ///  7. viscosity(m*, damping) is the force per slip without history and below the limit [N s/m]: it limits the time
 ///     step (longest_time_step).
 /// goes_with<Normal>: whether that normal law has its stiffness.
@@ -166,7 +166,7 @@ concept damping_sharing_law = tangential_law<Law> && requires(const Law& law) {
 ///  4. history [history_size<D>] is 0 when a contact begins, and changes with the angle alone: asked again after no
 ///     time, the law leaves it as it is;
 ///  5. seen from j, with normal, turning and history the other way round, torque and history are the opposite, exactly;
-///  6. lanes of numbers have the same results as the numbers, bit for bit.
+///  6. lanes of numbers have the same results as the numbers, bit for bit, unless built to fuse products.
 template <class Law>
 concept rolling_law = detail::plays<Law, contact_role::rolling> && detail::has_history_size<Law> &&
                       requires { { Law::resists } -> std::convertible_to<bool>; } &&
@@ -174,7 +174,7 @@ concept rolling_law = detail::plays<Law, contact_role::rolling> && detail::has_h
 
 /// What pulls bodies together while they touch, of a law that does (`pulls`).
 ///  1. pull(R*) [N] is not negative;
-///  2. lanes of numbers have the same results as the numbers, bit for bit.
+///  2. lanes of numbers have the same results as the numbers, bit for bit, unless built to fuse products.
 /// Friction does not feel it: its limit is mu times the force of the normal law alone, so that a contact in equilibrium
 /// with its pull still holds sideways. goes_with<Normal>: whether it belongs to such a contact.
 template <class Law>

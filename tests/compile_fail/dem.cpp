@@ -21,6 +21,7 @@ struct half_a_model {
 #endif
     template <class>
     using writes = tsubu::fields<>;
+    void check() const {}
 };
 
 /// Friction that lacks something in two of the cases.

@@ -13,7 +13,9 @@ struct guards {
     unsigned every = 1000;    ///< steps between two looks, the first at the start; 0: there only
     bool time_step = true;    ///< not above longest_time_step
     bool overlap = true;      ///< no two particles overlap by more than the smaller radius
-    bool coordinates = true;  ///< if the fastest particle flies freely, v dt is above half a unit in the last place
+    /// No particle crosses the box in a step; if the fastest one flies freely, v dt is above half a unit in the last
+    /// place of its position.
+    bool coordinates = true;
     /// [J] Once the kinetic energy was below, it stays below 10 times that; 0: not watched. Velocities are those that
     /// the integrator has at the end of a step: with velocity_verlet half a step old.
     double energy_floor = 0;

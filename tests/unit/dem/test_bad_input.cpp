@@ -159,6 +159,11 @@ TEST_CASE("particles that overlap by more than a radius are refused", "[dem][bad
         of.how.guard.overlap = false;
     })));
 }
+TEST_CASE("a particle that crosses the box in a step is refused", "[dem][bad_input][guards]") {
+    check_refused(with([](input& of) { of.v = {1e20, 0}; }),
+                  {"dem::run: step 0: particle 7 moves by 1e+16 m in a step, farther than the box of 10 m along axis 0",
+                   "look where its velocity comes from"});
+}
 TEST_CASE("options that cannot be are refused", "[dem][bad_input]") {
     check_refused(with([](input& of) { of.how.time_step = 0; }),
                   {"dem::run", "a time step of 0 s", "give a finite time above 0"});

@@ -243,7 +243,8 @@ TEST_CASE("a stretched spring is stiff across its length too", "[dem][run][guard
 TEST_CASE("a packing that sticks and rolls is as stable as it is told to be", "[dem][run][guards]") {
     // A square lattice, periodic, all but at rest: its fastest mode has all spins alike, 20 k_t / m; or neighbours that
     // roll against each other.
-    using bed = simulation<2, double, velocity_verlet, hooke_dashpot<linear_history, rolling_resistance>, equal_spheres>;
+    using bed =
+        simulation<2, double, velocity_verlet, hooke_dashpot<linear_history, rolling_resistance>, equal_spheres>;
     const auto grows = [](const rolling_resistance& rolling, double k_t, double gamma_t, double share) {
         double energies[2] = {};
         tsubu::run_ranks(1, [&](local_transport& on) {
@@ -290,4 +291,20 @@ TEST_CASE("memory may be reserved while a run goes on", "[dem][run]") {
         row.steps(10);
         CHECK(particle_count(row) == 5);
     });
+}
+TEST_CASE("a history that is no number is refused with both ids", "[dem][run][history][bad_input]") {
+    std::string said;
+    tsubu::run_ranks(1, [&](local_transport& on) {
+        auto row = empty_run(on);
+        add_row_and_bystanders(row.particles());
+        row.start();
+        row.keep_history();
+        auto& store = row.particles();
+        for (std::size_t i = 0; i < store.owned_count(); ++i)
+            if (store[tsubu::id][i] == 3) store[contacts][i].begin()->history[1] = NAN;
+        said = thrown<tsubu::input_error>([&] { row.resume(); });
+    });
+    INFO(said);
+    CHECK(
+        says(said, "dem::run::start: particle 3 has a history of nan with 2; give finite numbers, or clear the field"));
 }

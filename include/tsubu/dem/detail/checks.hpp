@@ -82,6 +82,13 @@ void check_particles(const typename Simulation::store_type& store) {
             for (const auto w : store[quantities::angular_velocity][i])
                 if (!tsubu::detail::is_finite(w))
                     refuse(i, "an angular velocity of " + tsubu::detail::shown(w) + " rad/s", "give finite numbers");
+        if constexpr (Simulation::has_history)
+            for (const auto& one : store[quantities::template contacts<Simulation::history_size>][i])
+                for (const auto number : one.history)
+                    if (!tsubu::detail::is_finite(number))
+                        refuse(i,
+                               "a history of " + tsubu::detail::shown(number) + " with " + std::to_string(one.partner),
+                               "give finite numbers, or clear the field `contacts`");
         for (std::size_t k = 0; k < D; ++k) {
             if constexpr (quantities::has_offsets)
                 if (!tsubu::detail::is_finite(store[quantities::offset][i][k]))
@@ -115,6 +122,7 @@ public:
         const auto& guard = of_.how().guard;
         if (guard.overlap) check_overlaps(step);
         if (guard.time_step) check_time_step(step);
+        if (guard.coordinates) check_speeds(step);
     }
     /// Collective. @throws input_error on all ranks
     void check_together(std::uint64_t step, bool& has_been_at_rest) const {
@@ -164,6 +172,21 @@ private:
                        " s, and contacts that are stable up to " + tsubu::detail::shown(longest) + " s",
                    "take a smaller time step, softer contacts or another integrator; to see what happens, switch "
                    "guards::time_step off");
+    }
+    void check_speeds(std::uint64_t step) const {
+        const auto& particles = of_.particles();
+        for (std::size_t i = 0; i < particles.owned_count(); ++i)
+            for (std::size_t k = 0; k < D; ++k) {
+                const double v = std::abs(static_cast<double>(particles[simulation::quantities_type::velocity][i][k]));
+                const double length = static_cast<double>(of_.box().real_axis(k).length());
+                if (!(v * of_.how().time_step <= length))
+                    refuse(step,
+                           "particle " + named(static_cast<index_t>(i)) + " moves by " +
+                               tsubu::detail::shown(v * of_.how().time_step) +
+                               " m in a step, farther than the box of " + tsubu::detail::shown(length) +
+                               " m along axis " + std::to_string(k),
+                           "look where its velocity comes from, or take a smaller time step");
+            }
     }
     // Of a scene at rest the speeds end in the noise of rounding: what touches something may stand still.
     void check_coordinates(std::uint64_t step) const {

@@ -210,10 +210,7 @@ void cliff(row_reporter& report, extent how_much) {
             fields.emplace_back("coordination", coordination_number(*bed));
             fields.emplace_back("height", mean_position(*bed)[2]);
             fields.emplace_back("kinetic", kinetic_energy(*bed) / double(scene.count()));
-            // The bound of the greatest frequency, with the damping of the half step.
-            const double zeta = 50 / (2 * std::sqrt(2 * 2e5));
-            if (step < 0.55)
-                fields.emplace_back("limit", 2 * (std::sqrt(1 + zeta * zeta) - zeta) / greatest_frequency(*bed) / unit);
+            if (step < 0.55) fields.emplace_back("limit", longest_time_step(*bed) / unit);  // of a bed at rest
             fields.emplace_back("nanoseconds_per_second", 1e9 * seconds / duration / double(scene.count()));
         } catch (const tsubu::input_error&) {  // particles have left the box, or were faster than lists
             fields.emplace_back("kinetic", lost);

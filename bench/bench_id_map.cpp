@@ -8,11 +8,8 @@
 #include "patterns/lammps_ids.hpp"
 #include "patterns/patterns.hpp"
 #include "rivals/std_unordered_map.hpp"
-#include "support/command_line.hpp"
 #include "support/contender.hpp"
-#include "support/progress.hpp"
-#include "support/row_reporter.hpp"
-#include "support/run_context.hpp"
+#include "support/groups.hpp"
 #if defined(TSUBU_RIVAL_BOOST)
 #include "rivals/boost_flat_map.hpp"
 #endif
@@ -28,15 +25,14 @@
 #include <tsubu/id/paged_storage.hpp>
 
 #include <algorithm>    // std::minmax_element
+#include <chrono>       // std::chrono::steady_clock
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint32_t, std::uint64_t
-#include <cstdio>       // std::fprintf
-#include <cstdlib>      // EXIT_SUCCESS
 #include <cstring>      // std::strcmp
 #include <memory>       // std::unique_ptr
 #include <stdexcept>    // std::runtime_error
 #include <string>       // std::string
-#include <string_view>  // std::string_view
+#include <utility>      // std::move
 #include <vector>       // std::vector
 
 namespace bench {
@@ -141,7 +137,7 @@ constexpr operation operations[] = {
 constexpr std::size_t sizes[] = {10'000, 100'000, 1'000'000, 10'000'000};
 constexpr std::uint64_t ratios[] = {1, 2, 8, 64, 1024, 1'000'000};
 
-struct group {
+struct id_group {
     const pattern* made_by;  ///< null: the ids of a file
     std::size_t owned;
     std::uint64_t ratio;
@@ -151,12 +147,11 @@ struct group {
         return std::string(made_by != nullptr ? made_by->name : "file") + "/N:" + std::to_string(owned) +
                "/ratio:" + std::to_string(ratio);
     }
-    // In microseconds, roughly: shares of the time that is left.
-    [[nodiscard]] double weight() const { return (sweep ? 2.0 : 1.0) * (1.5e5 + static_cast<double>(owned)); }
+    [[nodiscard]] double seconds() const { return (sweep ? 2.0 : 1.0) * (1.5 + 1e-5 * static_cast<double>(owned)); }
 };
 
-std::vector<group> plan(extent how_much) {
-    std::vector<group> groups;
+std::vector<id_group> plan(extent how_much) {
+    std::vector<id_group> groups;
     const bool quick = how_much == extent::quick;
     const bool full = how_much == extent::full;
     for (const auto owned : sizes)
@@ -265,14 +260,14 @@ void run_operation(benchmark::State& state, const measured_series& subject, cons
         static_cast<double>(subject.map->memory_bytes()) / static_cast<double>(work.ids.size());
 }
 
-bool applies(const operation& op, const measured_series& subject, const group& to) {
+bool applies(const operation& op, const measured_series& subject, const id_group& to) {
     if (!to.sweep && !op.in_patterns) return false;
     if (subject.which->batches_only && !op.batch) return false;
     if (op.run == find_batch<&workload::half> && subject.which->make == table_of<plain_array, id_t>) return false;
     return op.run != update || subject.map->can_update();
 }
 
-void run_group(const group& which, const id_set& set, row_reporter& report) {
+void run_group(const id_group& which, const id_set& set, row_reporter& report) {
     const auto work = make_workload(set, which.owned, 1);
     const auto name = which.name();
     const auto all = make_all(work, name, report);
@@ -299,39 +294,26 @@ constexpr const char* usage =
     "TSUBU_INSTRUCTION_SET=portable|avx2|avx512 limits what the maps may use.\n";
 
 int run(const options& chosen) {
+    std::vector<id_group> planned;
     std::vector<group> groups;
     id_set from_file;
+    run_conditions particular;
     if (!chosen.ids_file.empty()) {
-        group of_file{nullptr, 0, 0, true};
+        id_group of_file{nullptr, 0, 0, true};
         from_file = from_lammps(chosen.ids_file, of_file.owned);
         const auto [lowest, highest] = std::minmax_element(from_file.ids.begin(), from_file.ids.end());
         const auto count = from_file.ids.size();
         of_file.ratio = (static_cast<std::uint64_t>(*highest - *lowest) + count / 2) / count;
-        groups.push_back(of_file);
+        planned.push_back(of_file);
+        particular.emplace_back("ids_file", chosen.ids_file);
     }
-    double all = 0;
-    for (const auto& planned : plan(chosen.how_much)) groups.push_back(planned);
-    std::erase_if(groups, [&](const group& g) { return g.name().find(chosen.only) == std::string::npos; });
-    for (const auto& g : groups) all += g.weight();
-    if (groups.empty()) {
-        std::fprintf(stderr, "bench_id_map: no group has \"%s\" in its name\n", chosen.only.c_str());
-        return 2;
-    }
-
-    auto context = run_context();
-    context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
-    if (!chosen.ids_file.empty()) context.emplace_back("ids_file", chosen.ids_file);
-    row_reporter report(chosen.out, context);
-    progress shown(all);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        const auto& g = groups[k];
-        shown.begin(k + 1, groups.size(), g.name());
-        run_group(g, g.made_by != nullptr ? g.made_by->make(g.owned, g.ratio, 1) : from_file, report);
-        shown.end(g.weight());
-    }
-    report.close();
-    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
-    return EXIT_SUCCESS;
+    for (const auto& one : plan(chosen.how_much)) planned.push_back(one);
+    for (const auto& one : planned)
+        groups.push_back({one.name(), one.seconds(), [one, &from_file](row_reporter& report) {
+                              const bool is_made = one.made_by != nullptr;
+                              run_group(one, is_made ? one.made_by->make(one.owned, one.ratio, 1) : from_file, report);
+                          }});
+    return run_groups("bench_id_map", std::move(groups), chosen, particular);
 }
 
 }  // namespace

@@ -3,10 +3,12 @@
 /// What the programs of the suite have in common on their command lines.
 #pragma once
 
+#include "progress.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <cstddef>      // std::size_t
-#include <cstdio>       // std::fprintf, std::fputs
+#include <cstdio>       // std::fprintf, std::fputs, std::sscanf
 #include <cstdlib>      // EXIT_FAILURE, EXIT_SUCCESS
 #include <exception>    // std::exception
 #include <string>       // std::string
@@ -23,7 +25,17 @@ struct options {
     std::string out;
     std::string only;
     std::string ids_file;
+    bool goes_on = false;     ///< keeps the groups that are in the file
+    bool only_plans = false;  ///< says how many seconds the groups take, roughly, and measures nothing
+    whole_run whole;
 };
+
+/// What all programs take, for their help.
+inline constexpr const char* usage_of_all =
+    "  --resume    keep the groups that a run under the same conditions has finished in this file\n"
+    "  --plan      print the seconds that the groups take, roughly, and measure nothing\n"
+    "  --whole-run DONE,TOOK,LATER\n"
+    "              seconds planned for the programs before this one, taken by them, and planned for those after\n";
 
 /// Takes our options out of the arguments; those of Google Benchmark stay. @return false if one is not understood.
 /// @param takes_ids  whether the program has a use for --ids
@@ -39,7 +51,14 @@ struct options {
             chosen.only = arguments[++k];
         else if (word == "--ids" && takes_ids && k + 1 < arguments.size())
             chosen.ids_file = arguments[++k];
-        else if (word.starts_with("--benchmark_out="))
+        else if (word == "--resume")
+            chosen.goes_on = true;
+        else if (word == "--plan")
+            chosen.only_plans = true;
+        else if (word == "--whole-run" && k + 1 < arguments.size()) {
+            auto& [done, took, later] = chosen.whole;
+            if (std::sscanf(arguments[++k], "%lf,%lf,%lf", &done, &took, &later) != 3) return false;
+        } else if (word.starts_with("--benchmark_out="))
             chosen.out = word.substr(word.find('=') + 1);
         else if (word.starts_with("--benchmark_"))
             rest.push_back(arguments[k]);
@@ -73,12 +92,14 @@ int run_program(int argc, char** argv, const std::string& name, const char* usag
     for (const std::string_view word : arguments)
         if (word == "--help") {
             std::fputs(usage, stdout);
+            std::fputs(usage_of_all, stdout);
             return EXIT_SUCCESS;
         }
     options chosen;
     chosen.out = name + ".json";
     if (!parse(arguments, chosen, takes_ids)) {
         std::fputs(usage, stderr);
+        std::fputs(usage_of_all, stderr);
         return 2;
     }
     try {

@@ -3,14 +3,13 @@
 /// Writes the JSON of several runs of Google Benchmark as one, a line per repetition.
 #pragma once
 
+#include "row_file.hpp"
+
 #include <benchmark/benchmark.h>
 
-#include <cstdio>     // std::snprintf
-#include <fstream>    // std::ofstream
-#include <stdexcept>  // std::runtime_error
-#include <string>     // std::string
-#include <utility>    // std::pair
-#include <vector>     // std::vector
+#include <string>   // std::string
+#include <utility>  // std::pair
+#include <vector>   // std::vector
 
 namespace bench {
 
@@ -19,17 +18,9 @@ namespace bench {
 /// of something other than time has its own fields.
 class row_reporter final : public benchmark::BenchmarkReporter {
 public:
-    row_reporter(const std::string& path, const std::vector<std::pair<std::string, std::string>>& context)
-        : file_(path) {
-        if (!file_) throw std::runtime_error(path + ": cannot be written; name a file in a folder that exists");
-        file_ << "{\n\"context\": {";
-        const char* separator = "\n  ";
-        for (const auto& [key, value] : context) {
-            file_ << separator << quoted(key) << ": " << quoted(value);
-            separator = ",\n  ";
-        }
-        file_ << "\n},\n\"benchmarks\": [";
-    }
+    /// On ranks that write nothing.
+    row_reporter() = default;
+    explicit row_reporter(row_file& file) : file_(&file) {}
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override {
@@ -51,12 +42,6 @@ public:
         for (const auto& [field, value] : fields) text += ", " + quoted(field) + ": " + number(value);
         row(text);
     }
-    /// Ends the file. @throws std::runtime_error if not all could be written.
-    void close() {
-        file_ << "\n]\n}\n";
-        file_.close();
-        if (!file_) throw std::runtime_error("the JSON could not be written to its end; is the disk full?");
-    }
 
 private:
     void report(const Run& run) {
@@ -69,25 +54,10 @@ private:
         row(text);
     }
     void row(const std::string& text) {
-        file_ << (first_ ? "\n  {" : ",\n  {") << text << "}" << std::flush;
-        first_ = false;
-    }
-    [[nodiscard]] static std::string number(double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.5g", value);
-        return text;
-    }
-    [[nodiscard]] static std::string quoted(const std::string& text) {
-        std::string result = "\"";
-        for (const char c : text) {
-            if (c == '"' || c == '\\') result += '\\';
-            result += c == '\n' || c == '\t' ? ' ' : c;
-        }
-        return result + '"';
+        if (file_ != nullptr) file_->add(text);
     }
 
-    std::ofstream file_;
-    bool first_ = true;
+    row_file* file_ = nullptr;
 };
 
 }  // namespace bench

@@ -25,6 +25,7 @@
 /// The model counts on simulated ranks, threads of rank 0, on cubes in a grid that is periodic along all axes.
 
 #include "rivals/hand_ranks.hpp"
+#include "support/command_line.hpp"
 #include "support/counting_transport.hpp"
 #include "support/groups.hpp"
 #include "support/rank_turns.hpp"

@@ -23,6 +23,7 @@
 ///     dem/missing/WHAT/WHY/-                 what could not be measured
 
 #include "dem/plan.hpp"
+#include "support/command_line.hpp"
 
 namespace bench {
 namespace {

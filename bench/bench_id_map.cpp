@@ -8,8 +8,10 @@
 #include "patterns/lammps_ids.hpp"
 #include "patterns/patterns.hpp"
 #include "rivals/std_unordered_map.hpp"
+#include "support/command_line.hpp"
 #include "support/contender.hpp"
 #include "support/groups.hpp"
+#include "support/registered.hpp"
 #if defined(TSUBU_RIVAL_BOOST)
 #include "rivals/boost_flat_map.hpp"
 #endif
@@ -117,18 +119,19 @@ struct operation {
     pass run;
     bool per_particle;  ///< the time is divided by the particles; else by the questions
     bool in_patterns;   ///< measured for every pattern, not for the sweep of T/N alone
+    bool is_quick;      ///< part of the quick run
     bool batch = false;
 };
 
 constexpr operation operations[] = {
-    {"rebuild", rebuild, true, true},
-    {"rebuild_without_links", rebuild_without_links, true, false},
-    {"update", update, true, false},
-    {"find_single", find_single, false, true},
-    {"find_dependent", find_dependent, false, false},
-    {"find_hit", find_batch<&workload::hit>, false, true, true},
-    {"find_half", find_batch<&workload::half>, false, true, true},
-    {"find_near", find_batch<&workload::near>, false, false, true},
+    {"rebuild", rebuild, true, true, true},
+    {"rebuild_without_links", rebuild_without_links, true, false, false},
+    {"update", update, true, false, false},
+    {"find_single", find_single, false, true, true},
+    {"find_dependent", find_dependent, false, false, false},
+    {"find_hit", find_batch<&workload::hit>, false, true, true, true},
+    {"find_half", find_batch<&workload::half>, false, true, false, true},
+    {"find_near", find_batch<&workload::near>, false, false, false, true},
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -142,12 +145,16 @@ struct id_group {
     std::size_t owned;
     std::uint64_t ratio;
     bool sweep;  ///< all operations
+    bool quick = false;
 
     [[nodiscard]] std::string name() const {
         return std::string(made_by != nullptr ? made_by->name : "file") + "/N:" + std::to_string(owned) +
                "/ratio:" + std::to_string(ratio);
     }
-    [[nodiscard]] double seconds() const { return (sweep ? 2.0 : 1.0) * (1.5 + 1e-5 * static_cast<double>(owned)); }
+    /// Roughly.
+    [[nodiscard]] double seconds() const {
+        return (sweep && !quick ? 2.0 : 1.0) * (1.5 + 1e-5 * static_cast<double>(owned));
+    }
 };
 
 std::vector<id_group> plan(extent how_much) {
@@ -157,7 +164,7 @@ std::vector<id_group> plan(extent how_much) {
     for (const auto owned : sizes)
         for (const auto ratio : ratios)
             if ((full || owned <= 1'000'000) && (!quick || ratio == 1 || ratio == 8 || ratio == 1024))
-                groups.push_back({&patterns[0], owned, ratio, true});
+                groups.push_back({&patterns[0], owned, ratio, true, quick});
     for (const auto& p : patterns) {
         const bool tested_sparse = p.make == block || p.make == strided || p.make == clustered;
         for (const auto owned : sizes) {
@@ -165,7 +172,7 @@ std::vector<id_group> plan(extent how_much) {
             if (!full && !p.quick && owned == 1'000'000) continue;
             if (owned == 10'000 && p.make != bucket_multiples && p.make != stride_of<32771>) continue;
             if (owned == 10'000'000 && (!full || !tested_sparse)) continue;
-            if (p.make != uniform) groups.push_back({&p, owned, 8, false});
+            if (p.make != uniform) groups.push_back({&p, owned, 8, false, quick});
             if (tested_sparse && !quick && owned < 10'000'000) groups.push_back({&p, owned, 1024, false});
             if (tested_sparse && full && owned < 10'000'000) groups.push_back({&p, owned, 1'000'000, false});
         }
@@ -261,7 +268,7 @@ void run_operation(benchmark::State& state, const measured_series& subject, cons
 }
 
 bool applies(const operation& op, const measured_series& subject, const id_group& to) {
-    if (!to.sweep && !op.in_patterns) return false;
+    if ((!to.sweep && !op.in_patterns) || (to.quick && !op.is_quick)) return false;
     if (subject.which->batches_only && !op.batch) return false;
     if (op.run == find_batch<&workload::half> && subject.which->make == table_of<plain_array, id_t>) return false;
     return op.run != update || subject.map->can_update();
@@ -272,13 +279,12 @@ void run_group(const id_group& which, const id_set& set, row_reporter& report) {
     const auto name = which.name();
     const auto all = make_all(work, name, report);
     compare_answers(all, work, name);
-    benchmark::ClearRegisteredBenchmarks();
     for (const auto& subject : all)
         for (const auto& op : operations)
             if (applies(op, subject, which))
                 benchmark::RegisterBenchmark((name + "/" + subject.which->name + "/" + op.name).c_str(),
                                              [&](benchmark::State& state) { run_operation(state, subject, op, work); });
-    benchmark::RunSpecifiedBenchmarks(&report);
+    run_registered(report);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -286,7 +292,7 @@ void run_group(const id_group& which, const id_set& set, row_reporter& report) {
 
 constexpr const char* usage =
     "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
-    "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5: about 3 minutes\n"
+    "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5; three operations: a minute\n"
     "  (neither)   all T/N, all patterns at 1e5, the main ones at 1e6: about 15 minutes\n"
     "  --full      N = 1e7 as well: more than an hour, 12 GB of memory\n"
     "  --ids FILE  also the ids of a LAMMPS data or dump file\n"

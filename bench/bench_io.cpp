@@ -23,7 +23,7 @@
 
 #include "support/command_line.hpp"
 #include "support/groups.hpp"
-#include "support/row_reporter.hpp"
+#include "support/registered.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/io/lammps_data_file.hpp>
@@ -372,11 +372,6 @@ void measure(const std::string& name, std::size_t count, std::size_t bytes, Pass
         state.counters["bytes"] = static_cast<double>(bytes);
     });
 }
-void run_registered(row_reporter& report) {
-    benchmark::RunSpecifiedBenchmarks(&report);
-    benchmark::ClearRegisteredBenchmarks();
-}
-
 template <class Fields>
 void run_read(const std::string& name, tsubu::atom_style style, form how, bool in_order, std::size_t count,
               row_reporter& report) {

@@ -78,6 +78,10 @@ class Results:
     def repetitions(self):
         return {len(rows) for rows in self.rows.values() if "repetition_index" in rows[0]} or {1}
 
+    def missing(self):
+        """[(what, why)] of what could not be measured, as the program tells it."""
+        return [key[1:3] for key in self.rows if key[0] == "missing"]
+
     def has(self, task):
         return any(key[0] == task for key in self.rows)
 
@@ -864,9 +868,8 @@ def sections(results, pyplot):
                      figure_element(beside_chart(results, pyplot), pyplot, "LAMMPS") + beside_table(results))
     if results.has("ranks"):
         parts.append("<h3>Ranks</h3>" + text(rank_sentences(results)))
-    missing = [key[1:3] for key in results.rows if key[0] == "missing"]
-    if missing:
-        parts.append(text("Not measured: " + listed([f"{what} ({why})" for what, why in missing]) + "."))
+    if results.missing():
+        parts.append(text("Not measured: " + listed([f"{what} ({why})" for what, why in results.missing()]) + "."))
     return "".join(parts)
 
 

@@ -43,6 +43,7 @@ class Results:
         self.contexts = []
         self.pairs = defaultdict(list)    # (ns of the store, ns by hand, their ratio), one per repetition
         self.bytes = {}                   # (layout, N): (bytes per place, bytes per particle)
+        self.carried = defaultdict(list)  # (layout, operation, bytes per particle, N): ns
         self.gathers = defaultdict(list)  # ns per particle
         self.orders = defaultdict(list)   # ns per particle
         self.copies = {}                  # elements copied, reallocations
@@ -50,11 +51,14 @@ class Results:
 
     def begin_file(self, context):
         self.contexts.append(context)
-        self.already = {key for cells in (self.pairs, self.gathers, self.orders, self.appends) for key in cells}
+        self.already = {key for cells in (self.pairs, self.carried, self.gathers, self.orders, self.appends)
+                        for key in cells}
 
     def add(self, row):
         _, kind, *words, last = row["name"].split("/")
         cell = (*words, int(last.split(":")[1]))
+        if kind == "carried":
+            cell = (cell[0], cell[1], int(cell[2]), cell[3])
         if kind == "growth":
             self.copies.setdefault(cell, (row["copied"], row["reallocations"]))
         elif cell in self.already:  # of two runs of one cell the first counts
@@ -62,6 +66,8 @@ class Results:
         elif kind == "pair":
             self.pairs[cell].append((row["store_ns"], row["by_hand_ns"], row["ratio"]))
             self.bytes[(cell[0], cell[-1])] = (row["bytes_per_place"], row["bytes_per_particle"])
+        elif kind == "carried":
+            self.carried[cell].append(row["real_time"])
         elif kind == "sorted":
             self.gathers[cell].append(1e9 / row["items_per_second"])
         elif kind == "order":
@@ -70,10 +76,10 @@ class Results:
             self.appends[cell].append(row["ns_per_append"])
 
     def is_empty(self):
-        return not (self.pairs or self.gathers or self.copies)
+        return not (self.pairs or self.carried or self.gathers or self.copies)
 
     def repetitions(self):
-        return {len(t) for cells in (self.pairs, self.gathers) for t in cells.values()}
+        return {len(t) for cells in (self.pairs, self.carried, self.gathers) for t in cells.values()}
 
     def time(self, layout, operation, count):
         """Of the store; a Spread, or None if not measured."""
@@ -88,6 +94,10 @@ class Results:
         """Store / by hand, of the turns that they took one after the other."""
         found = self.pairs.get((layout, operation, count))
         return middle([ratio for *_, ratio in found]) if found else None
+
+    def carried_time(self, layout, operation, size, count):
+        found = self.carried.get((layout, operation, size, count))
+        return middle(found) if found else None
 
     def gather(self, layout, order, count):
         found = self.gathers.get((layout, order, count))

@@ -3,7 +3,7 @@
 /// The groups of a program of the suite, and how they are run.
 #pragma once
 
-#include "command_line.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 #include "row_reporter.hpp"
 #include "run_context.hpp"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Writes the JSON of several runs of Google Benchmark as one, a line per repetition.
+/// What a group reports: a line per repetition.
 #pragma once
 
 #include "row_file.hpp"
-
-#include <benchmark/benchmark.h>
 
 #include <string>   // std::string
 #include <utility>  // std::pair
@@ -16,17 +14,11 @@ namespace bench {
 /// The fields are those of Google Benchmark's own JSON, so that its tools read it. A line that stands for no
 /// measurement has "refused" (the policy's message) or "degenerate" (nodes visited per look-up) in place of times; one
 /// of something other than time has its own fields.
-class row_reporter final : public benchmark::BenchmarkReporter {
+class row_reporter {
 public:
     /// On ranks that write nothing.
     row_reporter() = default;
     explicit row_reporter(row_file& file) : file_(&file) {}
-
-    bool ReportContext(const Context&) override { return true; }
-    void ReportRuns(const std::vector<Run>& runs) override {
-        for (const auto& run : runs)
-            if (run.run_type == Run::RT_Iteration) report(run);
-    }
 
     void refused(const std::string& name, const std::string& message) {
         row("\"name\": " + quoted(name) + ", \"refused\": " + quoted(message));
@@ -43,20 +35,12 @@ public:
         row(text);
     }
 
-private:
-    void report(const Run& run) {
-        std::string text = "\"name\": " + quoted(run.run_name.function_name) + ", \"run_type\": \"iteration\"" +
-                           ", \"repetition_index\": " + std::to_string(run.repetition_index) +
-                           ", \"iterations\": " + std::to_string(run.iterations) +
-                           ", \"real_time\": " + number(run.GetAdjustedRealTime()) +
-                           ", \"cpu_time\": " + number(run.GetAdjustedCPUTime()) + ", \"time_unit\": \"ns\"";
-        for (const auto& [name, counter] : run.counters) text += ", " + quoted(name) + ": " + number(counter.value);
-        row(text);
-    }
+    /// The elements of a line, as they are.
     void row(const std::string& text) {
         if (file_ != nullptr) file_->add(text);
     }
 
+private:
     row_file* file_ = nullptr;
 };
 

@@ -398,9 +398,9 @@ std::vector<group> plan(world& w) {
     };
     const double turns = static_cast<double>(w.rounds) * w.seconds;
     for (const std::size_t percent : {0U, 1U, 10U, 50U})
-        add("migrate/" + std::to_string(percent), 1 + 6 * turns, [&w, percent] { run_migrate(w, percent); });
+        add("migrate/" + std::to_string(percent), 0.3 + 2 * turns, [&w, percent] { run_migrate(w, percent); });
     const auto halos = [&](double cutoff, const std::string& size) {
-        add("halo/" + size, 1 + 10 * turns, [&w, cutoff, size] { run_halo(w, cutoff, size); });
+        add("halo/" + size, 1 + 8 * turns, [&w, cutoff, size] { run_halo(w, cutoff, size); });
     };
     halos(0.25, "50000");
     halos(0.002, "400");

@@ -521,8 +521,8 @@ std::vector<group> plan(extent how_much) {
         add("read/full_lammps", 12,
             [=](auto& r) { run_read<full_fields>("full_lammps", atom_style::full, form::lammps, true, n, r); });
         add("write/full", 18, [=](auto& r) { run_write(n, r); });
-        add("restart", 6, [=](auto& r) { run_restart(n, r); });
-        add("vtk_write", 3, [=](auto& r) { run_vtk(n, r); });
+        add("restart", 3, [=](auto& r) { run_restart(n, r); });
+        add("vtk_write", 1, [=](auto& r) { run_vtk(n, r); });
     }
     return groups;
 }

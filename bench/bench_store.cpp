@@ -688,7 +688,8 @@ std::vector<group> plan(extent how_much) {
         if (count == 10'000'000 && how_much != extent::full) continue;
         const auto end = "/N:" + std::to_string(count);
         const auto long_ones = static_cast<double>(count) / 1e6;
-        groups.push_back({"store/pair" + end, (how_much == extent::quick ? 30 : 60) * (0.02 + long_ones), [=](row_reporter& r) { run_pairs(count, r); }});
+        groups.push_back({"store/pair" + end, (how_much == extent::quick ? 30 : 60) * (0.02 + long_ones),
+                          [=](row_reporter& r) { run_pairs(count, r); }});
         groups.push_back({"store/sorting" + end, 0.5 + 9 * long_ones, [=](row_reporter& r) { run_sorting(count, r); }});
     }
     // All layouts of the largest particles, 544 bytes each, are in memory at once: no more than this fit into 1.6 GB.

@@ -96,15 +96,15 @@ void add_impacts(std::vector<group>& groups, extent how_much) {
     add_law<hooke<>>(all);
     add_law<hooke_dashpot<>>(all);
     add_hertz(all);
-    groups.push_back({"dem/impact", 8, [all, how_much](row_reporter& report) {
+    groups.push_back({"dem/impact", how_much == extent::quick ? 0.3 : 2.0, [all, how_much](row_reporter& report) {
                           for (const auto& one : all) one.errors(report, how_much);
                       }});
-    groups.push_back({"dem/cost", 4, [all, how_much](row_reporter& report) {
+    groups.push_back({"dem/cost", how_much == extent::quick ? 3.0 : 5.0, [all, how_much](row_reporter& report) {
                           std::vector<timed_contender> costs;
                           for (const auto& one : all) costs.push_back(one.cost());
                           take_turns(report, costs, rounds_of(how_much));
                       }});
-    groups.push_back({"dem/oblique", 3, [how_much](row_reporter& report) {
+    groups.push_back({"dem/oblique", how_much == extent::quick ? 0.3 : 1.0, [how_much](row_reporter& report) {
                           const auto of = [&]<class Case>(Case) {
                               oblique<Case, velocity_verlet>(report, how_much);
                               oblique<Case, symplectic_euler>(report, how_much);

@@ -117,23 +117,24 @@ class Room:
         if self.only_old or self.only_new:
             texts.append(f"only in the old {len(self.only_old)}, only in the new {len(self.only_new)}")
         if self.other_counts:
-            texts.append(f"{len(self.other_counts)} counted figures differ (errors, bytes), such as {self.other_counts[0]}")
+            texts.append(f"{len(self.other_counts)} counted figures differ (errors, bytes), such as "
+                         f"{self.other_counts[0]}")
         return ", ".join(texts)
 
 
 class Comparison:
     def __init__(self, old, new):
         self.old, self.new = old, new
-        self.rooms = {room: Room(old.costs[room], new.costs[room], old.counted[room], new.counted[room]) for room in ROOMS
-                      if room in old.contexts and room in new.contexts}
+        self.rooms = {room: Room(old.costs[room], new.costs[room], old.counted[room], new.counted[room])
+                      for room in ROOMS if room in old.contexts and room in new.contexts}
         self.rooms = {name: room for name, room in self.rooms.items() if not room.is_empty()}
         if not self.rooms:
             raise Refusal(f"{old.path} and {new.path} have no row in common: nothing to compare "
                           f"({', '.join(old.contexts)} there, {', '.join(new.contexts)} here)")
 
     def warnings(self):
-        return [f"DIFFERENT {name.upper()}: {', '.join(self.old.values(key))} and {', '.join(self.new.values(key))}. What "
-                "follows compares these, not the library." for key, name in LOUD
+        return [f"DIFFERENT {name.upper()}: {', '.join(self.old.values(key))} and {', '.join(self.new.values(key))}. "
+                "What follows compares these, not the library." for key, name in LOUD
                 if self.old.values(key) != self.new.values(key)]
 
     def conditions(self):
@@ -161,9 +162,9 @@ class Comparison:
 
     def page(self):
         escaped = lambda text: html.escape(text, quote=False)
-        parts = [f"<p>Old: <code>{escaped(self.old.path)}</code>, new: <code>{escaped(self.new.path)}</code>. Times are "
-                 "medians, with the interval in which each lies at 93 % or more; where two intervals overlap the row is "
-                 "called the same. Old / new above 1: the new one is faster.</p>"]
+        parts = [f"<p>Old: <code>{escaped(self.old.path)}</code>, new: <code>{escaped(self.new.path)}</code>. Times "
+                 "are medians, with the interval in which each lies at 93 % or more; where two intervals overlap the "
+                 "row is called the same. Old / new above 1: the new one is faster.</p>"]
         parts += [f'<p class="warning"><strong>{escaped(warning)}</strong></p>' for warning in self.warnings()]
         parts.append(table(["", "old", "new"], self.conditions()))
         parts.append("<ul>" + "".join(f"<li><strong>{name}</strong>: {escaped(room.summary())}</li>"

@@ -571,8 +571,8 @@ def choice_of(results, task, case, tolerance, cost_task, cost_case, per_step, wh
         return f"No curve reaches {what} of {tolerance:g}."
     best = found[0]
     others = [f for f in found if f[3] == "double" and f[2] not in (best[2],)]
-    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with about {best[1]:.0f} steps of a contact: "
-            f"{figure_of(best[0])} µs per simulated second and particle")
+    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with about {best[1]:.0f} steps of a "
+            f"contact: {figure_of(best[0])} µs per simulated second and particle")
     if others:
         ratio = others[0][0] / best[0]
         text += (f"; {label_of(*others[0][2:])} costs the same" if limits(ratio)[0] < 1.05 else
@@ -767,8 +767,8 @@ LADDER_TEXT = (
 BESIDE_TEXT = (
     "Both begin from the same doubles and do the same steps, each turn anew. With Hertz, Mindlin and Tsuji LAMMPS "
     "turns the spring of a contact before it lengthens it, and not after, so that energies differ in more than "
-    "rounding. Bytes are those that each program tells, of particles and lists; resident is by how much its memory grew "
-    "in all.")
+    "rounding. Bytes are those that each program tells, of particles and lists; resident is by how much its memory "
+    "grew in all.")
 
 
 def figure_element(figure, pyplot, title):

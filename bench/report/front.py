@@ -23,19 +23,17 @@ def values_of(contexts, key):
 def introduction(figures):
     contexts = [context for _, context in figures.contexts]
     repetitions = sorted({n for results in figures.results.values() for n in results.repetitions() if n > 1})
-    on = listed(values_of(contexts, "machine"))
-    sets = listed(values_of(contexts, "instruction_set"))
+    every = lambda key: escaped(listed(values_of(contexts, key)))
     return (
-        '<p class="lead">tsubu is a C++ library of what every particle code needs beside its physics: maps from ids to '
-        "indices, domains, particle stores, files, ranks, and a thin layer of discrete elements. This page says what its "
-        "policies cost on one machine, beside those of other libraries, and which to choose. Measured on "
-        f"{escaped(on)} ({escaped(listed(values_of(contexts, 'cores')))} cores, {escaped(sets)}) with "
-        f"{escaped(listed(values_of(contexts, 'compiler')))}, <code>{escaped(listed(values_of(contexts, 'flags')))}</code>, {commit_text(contexts)}, "
-        f"{escaped(date_text(contexts))}.</p>"
-        f"<p>Each time is a median of {span(repetitions)} repetitions, in which all contenders of a group took turns in random "
-        "order; its spread is the interval in which the median lies at 93 % or more: with five repetitions from the lowest to "
-        "the highest. Two times are called different only if their spreads do not overlap; else the text says “within noise”. "
-        "Ghosts, seeds and scenes are fixed; results are compared before they are timed.</p>")
+        '<p class="lead">tsubu is a C++ library of what every particle code needs beside its physics: maps from ids '
+        "to indices, domains, particle stores, files, ranks, and a thin layer of discrete elements. This page says "
+        "what its policies cost on one machine, beside those of other libraries, and which to choose. Measured on "
+        f"{every('machine')} ({every('cores')} cores, {every('instruction_set')}) with {every('compiler')}, "
+        f"<code>{every('flags')}</code>, {commit_text(contexts)}, {escaped(date_text(contexts))}.</p>"
+        f"<p>Each time is a median of {span(repetitions)} repetitions, in which all contenders of a group took turns "
+        "in random order; its spread is the interval in which the median lies at 93 % or more: with five repetitions "
+        "from the lowest to the highest. Two times are called different only if their spreads do not overlap; else the "
+        "text says “within noise”. Seeds and scenes are fixed; answers are compared before they are timed.</p>")
 
 
 def span(numbers):
@@ -60,8 +58,8 @@ def warnings(figures):
     if different:
         runs = [f"{name}: {c['commit']} of {c['date'][:10]}" + (f" ({c['extent']})" if c.get("extent") else "")
                 for name, c in figures.contexts]
-        texts.append(f"These figures come from several runs, of different {listed(different)}: compare those of different "
-                     f"rooms with care. {'; '.join(runs)}.")
+        texts.append(f"These figures come from several runs, of different {listed(different)}: compare those of "
+                     f"different rooms with care. {'; '.join(runs)}.")
     dirty = [name for name, c in figures.contexts if c["commit"].endswith("-dirty")]
     if dirty:
         texts.append(f"Measured with changes that no commit holds: {listed(dirty)}.")
@@ -109,7 +107,8 @@ def absent_here(figures, chart):
 
 def chart_section(figures, number, chart, pyplot):
     results = figures.results.get(chart.ROOM)
-    head = f'<section><h2 id="chart{number}">{number}. {escaped(chart.TITLE)}</h2><p class="question">{escaped(chart.QUESTION)}</p>'
+    head = (f'<section><h2 id="chart{number}">{number}. {escaped(chart.TITLE)}</h2>'
+            f'<p class="question">{escaped(chart.QUESTION)}</p>')
     if results is None or not chart.is_there(results):
         return head + (f'<p class="warning">Not in these figures: <code>{escaped(chart.ABSENT)}</code> '
                        "measures them.</p></section>")

@@ -118,11 +118,6 @@ def runs_of_choice(places, values_at):
     return runs
 
 
-def gain_of(a, b):
-    """How many times b is a, or that noise does not tell them apart."""
-    return f"{figure_of(b / a)} times that" if apart(a, b) else "within noise"
-
-
 def spans_text(runs, at, label=str, place=str):
     """dense up to T/N = 8, flat from 64 on"""
     parts = []
@@ -224,9 +219,10 @@ def go_on_with_system_python():
     """Replaces this program by itself under the system's python, if that is another one and has matplotlib."""
     if not os.access(SYSTEM_PYTHON, os.X_OK) or os.path.realpath(SYSTEM_PYTHON) == os.path.realpath(sys.executable):
         return
-    if subprocess.run([SYSTEM_PYTHON, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
-        print(f"report.py: {sys.executable} has no matplotlib; going on with {SYSTEM_PYTHON}, which has it", file=sys.stderr)
-        sys.stderr.flush()
+    probe = subprocess.run([SYSTEM_PYTHON, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False)
+    if probe.returncode == 0:
+        print(f"report.py: {sys.executable} has no matplotlib; going on with {SYSTEM_PYTHON}, which has it",
+              file=sys.stderr, flush=True)
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
 
 

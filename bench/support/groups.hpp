@@ -34,7 +34,8 @@ inline int run_groups(const char* program, std::vector<group> groups, const opti
                       const run_conditions& particular = {}, const team& everyone = {}) {
     std::erase_if(groups, [&](const group& g) { return g.name.find(chosen.only) == std::string::npos; });
     if (groups.empty()) {
-        if (everyone.writes) std::fprintf(stderr, "%s: no group has \"%s\" in its name\n", program, chosen.only.c_str());
+        if (everyone.writes)
+            std::fprintf(stderr, "%s: no group has \"%s\" in its name\n", program, chosen.only.c_str());
         return 2;
     }
     double planned = 0;

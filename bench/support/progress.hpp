@@ -36,8 +36,13 @@ public:
     void begin(std::size_t number, std::size_t count, const std::string& name) {
         const double left = seconds_left(whole_, planned_, done_, seconds());
         char time[48];
-        std::snprintf(time, sizeof time, left < 60 ? "about %.0f s left" : "about %.0f min left",
-                      left < 60 ? left : left / 60);
+        const int whole = static_cast<int>(left);
+        if (left < 60)
+            std::snprintf(time, sizeof time, "about %d s left", whole);
+        else if (left < 600)
+            std::snprintf(time, sizeof time, "about %d min %02d s left", whole / 60, whole % 60);
+        else
+            std::snprintf(time, sizeof time, "about %d min left", whole / 60);
         std::fprintf(stderr, "%s[%zu/%zu] %-40s %s%s", is_terminal_ ? "\r\033[2K" : "", number, count, name.c_str(),
                      time, is_terminal_ ? "" : "\n");
         std::fflush(stderr);

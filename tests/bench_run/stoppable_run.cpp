@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A program of bench/ that measures nothing: groups of rows that come slowly, so that a test can stop it in their midst.
+/// A program of bench/ that measures nothing: groups of rows that come slowly, so that a test can stop it in their
+/// midst.
 ///
 ///     stoppable_run [--resume] [--only TEXT] [--quick] --benchmark_out=FILE.json
 

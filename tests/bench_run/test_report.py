@@ -102,12 +102,14 @@ class Sentences(unittest.TestCase):
         self.assertIn("visits 777 nodes", text)
 
     def test_layouts(self):
-        rows = [{"name": f"store/carried/{layout}/{operation}/{size}/N:400000", "repetition_index": k, "real_time": t * f}
+        rows = [{"name": f"store/carried/{layout}/{operation}/{size}/N:400000", "repetition_index": k,
+                 "real_time": t * f}
                 for layout, times in {"soa": (2, 2), "aos": (3, 9)}.items() for size, t in zip((96, 544), times)
                 for operation in ("update", "permute", "pack") for k, f in enumerate(NOISE)]
         text = layouts.sentence(results_of(store, rows))
         self.assertIn("For 4e5 particles", text)
-        self.assertIn("soa where updates count (soa 2.00 and aos 3.00 ns at 96; soa 2.00 and aos 9.00 ns at 544 bytes)", text)
+        self.assertIn("soa where updates count (soa 2.00 and aos 3.00 ns at 96; soa 2.00 and aos 9.00 ns at 544 bytes)",
+                      text)
         self.assertIn("as long, within noise, in soa and 3.0 times as long in aos", text)
 
     @staticmethod
@@ -227,7 +229,8 @@ class Comparison(Folder):
 
     def test_nothing_in_common_is_refused(self):
         with self.assertRaises(page.Refusal):
-            self.compared(map_rows({"flat": {1: 10}}), [{"name": "dem/walls/0/pefrl/double", "omega_dt": 1, "error": 1}])
+            self.compared(map_rows({"flat": {1: 10}}),
+                          [{"name": "dem/walls/0/pefrl/double", "omega_dt": 1, "error": 1}])
         empty = os.path.join(self.folder.name, "empty")
         os.mkdir(empty)
         with self.assertRaises(page.Refusal):

@@ -7,15 +7,16 @@ from .sparsity import LOOKS, label
 
 ROOM = "id"
 TITLE = "What if ids are as simulations make them?"
-QUESTION = ("The same maps on the ids of a fresh lattice, of a hopper after a long run of insertion and deletion, of one rank's "
-            "slice, and on strided and clustered ones of 64 bits; T/N = 8 where a pattern has no stride of its own. The left is "
-            "best.")
+QUESTION = ("The same maps on the ids of a fresh lattice, of a hopper after a long run of insertion and deletion, of "
+            "one rank's slice, and on strided and clustered ones of 64 bits; T/N = 8 where a pattern has no stride of "
+            "its own. The left is best.")
 ABSENT = "bench/run --only id"
 # pattern: what it is called here; the others stand in the appendix
 NAMES = {
     "uniform": "uniform, to compare", "lattice": "fresh lattice", "hopper": "long run in a hopper",
     "mixed_slice": "slice of a rank, mixed", "block": "blocks of 1024", "strided": "every 8th",
-    "clustered": "clustered, rank << 40", "rank_in_low_bits": "rank in the low bits", "random_62_bits": "62 random bits",
+    "clustered": "clustered, rank << 40", "rank_in_low_bits": "rank in the low bits",
+    "random_62_bits": "62 random bits",
     "stride_2^6": "multiples of 2^6", "stride_2^12": "multiples of 2^12", "stride_2^20": "multiples of 2^20",
     "fibonacci_30": "multiples of 832040", "multiples_of_B": "multiples of the buckets",
 }
@@ -68,8 +69,8 @@ def pattern_panel(results, measure, pyplot):
     for k, pattern in enumerate(names):
         degenerate = results.degenerate.get((pattern, size_of(results), 8, NOTES))
         if degenerate and measure != "memory":
-            axes.annotate(f"mod prime: {degenerate[0]:.0f} nodes ▶", (1, k + .75), xycoords=("axes fraction", "data"), ha="right",
-                          va="center", fontsize=7.5, color=LOOKS[NOTES].colour)
+            axes.annotate(f"mod prime: {degenerate[0]:.0f} nodes ▶", (1, k + .75), xycoords=("axes fraction", "data"),
+                          ha="right", va="center", fontsize=7.5, color=LOOKS[NOTES].colour)
     axes.set_yticks(range(len(names)), [NAMES[p] for p in names], fontsize=8.5)
     axes.set_ylim(len(names) + .3, -.5)
     axes.tick_params(axis="y", length=0)
@@ -94,8 +95,8 @@ def sentence(results):
     if not default:
         return ""
     worst, least = max(default, key=default.get), min(default, key=default.get)
-    text = (f"Whatever makes the ids, choose adaptive: at {count} a batched look-up takes {figure_of(default[least])} ns "
-            f"({NAMES[least]}) to {figure_of(default[worst])} ns ({NAMES[worst]})")
+    text = (f"Whatever makes the ids, choose adaptive: at {count} a batched look-up takes {figure_of(default[least])} "
+            f"ns ({NAMES[least]}) to {figure_of(default[worst])} ns ({NAMES[worst]})")
     ratios = [(quotient(best_rival[p], v), p) for p, v in default.items() if best_rival.get(p)]
     if ratios:
         beyond = [r for r, p in ratios if r > 1 and apart(best_rival[p], default[p])]
@@ -105,7 +106,8 @@ def sentence(results):
     refused = [p for p in names if (p, size_of(results), 8, "dense") in results.refused]
     if refused:
         text += f"; dense is refused for {len(refused)} of {len(names)} patterns, whose range would not fit into memory"
-    bad = [(visits, p) for (p, n, _, _), (visits, _) in results.degenerate.items() if n == size_of(results) and p in names]
+    bad = [(visits, p) for (p, n, _, _), (visits, _) in results.degenerate.items()
+           if n == size_of(results) and p in names]
     if bad:
         text += (f"; do not take ids modulo a prime: on {NAMES[max(bad)[1]]} a look-up visits {max(bad)[0]:.0f} nodes "
                  "of one chain")
@@ -118,6 +120,8 @@ def figures(results):
     for measure, title in MEASURES.items():
         present = [s for s in SERIES if any(value_of(results, p, s, measure) for p in names)]
         content = table(["Pattern"] + [label(s) for s in present],
-                        [[NAMES[p]] + [spread_cell(results, (p, count, 8), s, measure) for s in present] for p in names])
-        parts.append((f"{title}, {power(count)} particles" + ("" if measure == "memory" else ": median (lowest–highest)"), content))
+                        [[NAMES[p]] + [spread_cell(results, (p, count, 8), s, measure) for s in present]
+                         for p in names])
+        spread = "" if measure == "memory" else ": median (lowest–highest)"
+        parts.append((f"{title}, {power(count)} particles{spread}", content))
     return tables(parts)

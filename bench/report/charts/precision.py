@@ -9,9 +9,9 @@ from ..page import INK, apart, figure_of, quotient, scaled, short_power, table
 
 ROOM = "dem"
 TITLE = "What does precision cost?"
-QUESTION = ("Error against the exact solution over the cost of a simulated second, a mark per time step; the lower left is "
-            "best. Each panel is a scene with its contact law; a curve is an integrator, or velocity Verlet with other "
-            "numbers or coordinates.")
+QUESTION = ("Error against the exact solution over the cost of a simulated second, a mark per time step; the lower "
+            "left is best. Each panel is a scene with its contact law; a curve is an integrator, or velocity Verlet "
+            "with other numbers or coordinates.")
 ABSENT = "bench/run --only dem"
 FINE = 1e-5  # the second tolerance of the sentence
 LOOKS = {
@@ -41,7 +41,8 @@ class Scene:
         step = results.time(*self.cost, *series)
         if not step:
             return []
-        return [(scaled(step, n * self.per_step), e) for n, e in results.errors(self.task, self.case, *series) if e < 10]
+        return [(scaled(step, n * self.per_step), e) for n, e in results.errors(self.task, self.case, *series)
+                if e < 10]
 
     def costs(self, results, tolerance):
         """{series: cost of the longest step from which on no error is above the tolerance}"""
@@ -110,8 +111,8 @@ SAME = 1.02  # costs closer than this are called equal, even where the noise is 
 
 
 def compared(results, tolerance_of):
-    """(the integrator that is the cheapest in most scenes, [(scene, its cost)] of these, texts where another is cheaper,
-    {scene: costs})"""
+    """(the integrator that is the cheapest in most scenes, [(scene, its cost)] of these, texts where another is
+    cheaper, {scene: costs})"""
     costs_of = {}
     for scene in scenes(results):
         costs = {s: c for s, c in scene.costs(results, tolerance_of(scene)).items() if s[1] == "double"}
@@ -135,8 +136,9 @@ def choice_text(results, tolerance_of, with_rivals):
     if not good:
         return ""
     costs = [c for _, c in good]
-    text = (f"{label_of(*chosen)}, which is within noise or 2 % of the cheapest in {len(good)} of {len(costs_of)} scenes, at "
-            f"{figure_of(min(costs))} to {figure_of(max(costs))} µs of a core per simulated second and particle")
+    text = (f"{label_of(*chosen)}, which is within noise or 2 % of the cheapest in {len(good)} of {len(costs_of)} "
+            f"scenes, at {figure_of(min(costs))} to {figure_of(max(costs))} µs of a core per simulated second and "
+            "particle")
     if elsewhere:
         text += f" ({'; '.join(elsewhere)})"
     for rival in (("pefrl", "double"),) if with_rivals else ():
@@ -178,16 +180,19 @@ def tolerance_table(results):
     costs = [scene.costs(results, scene.tolerance) for scene in present]
     rows = [[look.label] + [cost_cell(c.get(series)) if series in c else "<td>–</td>" for c in costs]
             for series, look in LOOKS.items() if any(series in c for c in costs)]
-    return table(["µs per simulated second and particle", *(f"{s.name}, {short_power(s.tolerance)}" for s in present)], rows)
+    head = ["µs per simulated second and particle"]
+    return table(head + [f"{s.name}, {short_power(s.tolerance)}" for s in present], rows)
 
 
 def figures(results):
-    parts = [("What the tolerance costs, with the longest step from which on no error is above it; –: never reached, or not "
-              "possible there", tolerance_table(results)),
+    parts = [("What the tolerance costs, with the longest step from which on no error is above it; –: never reached, "
+              "or not possible there", tolerance_table(results)),
              ("Order, and steps of a contact for the tolerance: impacts",
               order_table(results, "impact", [(law, label) for law, (label, *_) in LAWS.items()]))]
     if results.has("oblique"):
-        parts.append(("The same: oblique impacts", order_table(results, "oblique", [("rolls", "sticks"), ("slides", "slides")])))
+        parts.append(("The same: oblique impacts",
+                      order_table(results, "oblique", [("rolls", "sticks"), ("slides", "slides")])))
     if results.has("gas"):
         parts.append(("The same: elastic gas", order_table(results, "gas", [("hooke", "Hooke")], 1e-4)))
-    return tables(parts + [("What a step costs: ns per particle-step, median (limits of the median)", cost_table(results))])
+    return tables(parts + [("What a step costs: ns per particle-step, median (limits of the median)",
+                            cost_table(results))])

@@ -7,8 +7,9 @@ from ..page import apart, figure_of, limits, plain_ticks, power, quotient, runs_
 
 ROOM = "id"
 TITLE = "Which table for which ids?"
-QUESTION = ("Time and memory of a map from global ids to local indices, over T/N: the range of the ids by their number, 1 "
-            "where they are numbered without gaps. Dotted uprights: where the best of our own tables changes.")
+QUESTION = ("Time and memory of a map from global ids to local indices, over T/N: the range of the ids by their "
+            "number, 1 where they are numbered without gaps. Dotted uprights: where the best of our own tables "
+            "changes. Tinted: from the lowest to the highest repetition.")
 ABSENT = "bench/run --only id"
 MEASURES = {"find_hit": "Batched look-up, ns each", "find_single": "Single look-up, ns each",
             "rebuild": "Rebuild, ns per particle", "memory": "Memory, bytes per particle"}
@@ -128,17 +129,18 @@ def default_text(results, count):
         return ""
     text = f"adaptive, the default, is within noise of the best of our own tables at {good} of {points} points"
     if worst:
-        text += f", and takes {figure_of(worst[0])} times as long at the worst of the others ({worst[1]}, T/N = {power(worst[2])})"
+        text += (f", and takes {figure_of(worst[0])} times as long at the worst of the others ({worst[1]}, "
+                 f"T/N = {power(worst[2])})")
     return text
 
 
 def sentence(results):
     count = max((n for n in counts_of(results) if n <= 10**6), default=counts_of(results)[-1])
     texts = [t for measure in MEASURES if (t := measure_text(results, count, measure))]
-    return (f"For {power(count)} particles choose, {'; '.join(texts)}; or choose none: {default_text(results, count)}.")
+    return (f"For {power(count)} particles choose {'; '.join(texts)}; or choose none: {default_text(results, count)}.")
 
 
 def figures(results):
-    return tables([(f"{title}, {power(count)} particles" + ("" if measure == "memory" else ": median (lowest–highest)"),
-                    sweep_table(results, count, measure))
+    spread = lambda measure: "" if measure == "memory" else ": median (lowest–highest)"
+    return tables([(f"{title}, {power(count)} particles{spread(measure)}", sweep_table(results, count, measure))
                    for count in reversed(counts_of(results)) for measure, title in MEASURES.items()])

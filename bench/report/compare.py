@@ -40,7 +40,7 @@ class Run:
         self.path = path
         self.contexts = {}                                       # room: that of its first file
         self.costs = defaultdict(lambda: defaultdict(list))      # room: name: [ns]
-        self.counted = defaultdict(lambda: defaultdict(list))    # room: name: [fields that are no times]
+        self.counted = defaultdict(dict)                         # room: (name, step): fields that are no times
         for file in self.files():
             self.read(file)
 
@@ -56,7 +56,7 @@ class Run:
         context, rows = contents_of(file)
         room = room_of(rows)
         self.contexts.setdefault(room, context)
-        already = set(self.costs[room]) | set(self.counted[room])  # of two runs of one row the first counts
+        already = set(self.costs[room]) | {name for name, _ in self.counted[room]}  # of two runs of one row the first
         for row in rows:
             if row["name"] in already:
                 continue
@@ -64,8 +64,8 @@ class Run:
             if cost is not None:
                 self.costs[room][row["name"]].append(cost)
             fields = {k: v for k, v in row.items() if k not in TIMES}
-            if fields and fields not in self.counted[room][row["name"]]:
-                self.counted[room][row["name"]].append(fields)
+            if fields:  # of a sweep each step is a row of the same name
+                self.counted[room].setdefault((row["name"], row.get("steps", row.get("omega_dt"))), fields)
 
     def values(self, key):
         return list(dict.fromkeys(str(c.get(key, "unknown")) for c in self.contexts.values()))
@@ -93,9 +93,10 @@ class Room:
         self.rows = [Row(name, old_costs[name], new_costs[name]) for name in old_costs if name in new_costs]
         self.only_old = [name for name in old_costs if name not in new_costs]
         self.only_new = [name for name in new_costs if name not in old_costs]
-        both = [name for name in old_counted if name in new_counted]
-        self.other_counts = [name for name in both if old_counted[name] != new_counted[name]]
-        self.same_counts = len(both) - len(self.other_counts)
+        both = [key for key in old_counted if key in new_counted]
+        different = [name for name, step in both if old_counted[(name, step)] != new_counted[(name, step)]]
+        self.other_counts = list(dict.fromkeys(different))  # names of the rows
+        self.same_counts = len(both) - len(different)
 
     def changed(self):
         """The greatest change first."""

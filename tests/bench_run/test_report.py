@@ -220,6 +220,8 @@ class Comparison(Folder):
         rows = lambda error: [{"name": "dem/impact/hooke/pefrl/double", "steps": 5.37, "error": error}]
         self.assertIn("1 counted figures differ", self.compared(rows(.1), rows(.2)).text())
         self.assertNotIn("differ", self.compared(rows(.1), rows(.1)).text())
+        more = [{"name": "dem/impact/hooke/pefrl/double", "steps": 10.37, "error": .05}]
+        self.assertNotIn("differ", self.compared(rows(.1), rows(.1) + more).text())  # a longer sweep
 
     def test_another_machine_is_told_loudly(self):
         rows = map_rows({"flat": {1: 10}})

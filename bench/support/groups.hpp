@@ -38,23 +38,23 @@ inline int run_groups(const char* program, std::vector<group> groups, const opti
             std::fprintf(stderr, "%s: no group has \"%s\" in its name\n", program, chosen.only.c_str());
         return 2;
     }
-    double planned = 0;
-    for (const auto& g : groups) planned += g.seconds;
-    if (chosen.only_plans) {
-        if (everyone.writes) std::printf("%.0f\n", planned);
-        return EXIT_SUCCESS;
-    }
     auto conditions = run_context();
     conditions.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
     conditions.insert(conditions.end(), particular.begin(), particular.end());
-    row_file file = everyone.writes ? row_file(chosen.out, conditions, chosen.goes_on) : row_file();
-    row_reporter report = everyone.writes ? row_reporter(file) : row_reporter();
+    const bool needs_file = everyone.writes && (!chosen.only_plans || chosen.goes_on);
+    row_file file = needs_file ? row_file(chosen.out, conditions, chosen.goes_on) : row_file();
+    row_reporter report = needs_file ? row_reporter(file) : row_reporter();
 
     std::vector<char> is_done;
     for (const auto& g : groups) is_done.push_back(file.has_finished(g.name) ? 1 : 0);
     everyone.agree(is_done);
+    double planned = 0;
     for (std::size_t k = 0; k < groups.size(); ++k)
-        if (is_done[k] != 0) planned -= groups[k].seconds;
+        if (is_done[k] == 0) planned += groups[k].seconds;
+    if (chosen.only_plans) {
+        if (everyone.writes) std::printf("%.0f\n", planned);
+        return EXIT_SUCCESS;
+    }
 
     progress shown(planned, chosen.whole);
     for (std::size_t k = 0; k < groups.size(); ++k) {

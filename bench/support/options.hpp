@@ -22,14 +22,14 @@ struct options {
     std::string only;
     std::string ids_file;
     bool goes_on = false;     ///< keeps the groups that are in the file
-    bool only_plans = false;  ///< says how many seconds the groups take, roughly, and measures nothing
+    bool only_plans = false;  ///< says how many seconds are left, roughly, and measures nothing
     whole_run whole;
 };
 
 /// What all programs take, for their help.
 inline constexpr const char* usage_of_all =
     "  --resume    keep the groups that a run under the same conditions has finished in this file\n"
-    "  --plan      print the seconds that the groups take, roughly, and measure nothing\n"
+    "  --plan      print the seconds that the groups take which are left, roughly, and measure nothing\n"
     "  --whole-run DONE,TOOK,LATER\n"
     "              seconds planned for the programs before this one, taken by them, and planned for those after\n";
 

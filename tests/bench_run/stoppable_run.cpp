@@ -33,7 +33,7 @@ int main(int count, char** words) try {
     if (!bench::parse(arguments, chosen)) return 2;
     std::vector<bench::group> groups;
     for (const std::string name : {"dem/first", "dem/second", "dem/third", "dem/fourth"})
-        groups.push_back({name, 0.04, [name](bench::row_reporter& report) { slow_rows(report, name); }});
+        groups.push_back({name, 10, [name](bench::row_reporter& report) { slow_rows(report, name); }});
     return bench::run_groups("stoppable_run", groups, chosen);
 } catch (const std::exception& failure) {
     std::fprintf(stderr, "stoppable_run: %s\n", failure.what());

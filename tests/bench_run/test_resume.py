@@ -73,6 +73,8 @@ class StoppedRun(unittest.TestCase):
 
     def test_finished_groups_are_not_measured_again(self):
         self.assertEqual(run(self.path, "--only", "first").returncode, 0)
+        whole, rest = (int(run(self.path, "--plan", *more).stdout) for more in ((), ("--resume",)))
+        self.assertEqual((whole, rest), (40, 30))
         again = run(self.path, "--resume")
         self.assertNotIn("dem/first", again.stderr)
         self.assertIn("dem/second", again.stderr)
@@ -116,12 +118,12 @@ class StoppedRun(unittest.TestCase):
 
     def test_the_plan_measures_nothing(self):
         planned = run(self.path, "--plan", "--quick")
-        self.assertEqual((planned.returncode, planned.stdout), (0, "0\n"))
+        self.assertEqual((planned.returncode, planned.stdout), (0, "40\n"))
         self.assertFalse(os.path.exists(self.path))
 
     def test_time_left_is_that_of_the_whole_run(self):
-        """Programs before took twice as long as planned, so those after will: 2 * (0.16 + 600) seconds."""
-        first = run(self.path, "--whole-run", "30,60,600").stderr.splitlines()[0]
+        """Programs before took twice as long as planned, so this one and those after will: 2 * (40 + 560) seconds."""
+        first = run(self.path, "--whole-run", "30,60,560").stderr.splitlines()[0]
         self.assertIn("about 20 min left", first)
 
 

@@ -23,3 +23,10 @@ write_basic_package_version_file(tsubu-config-version.cmake COMPATIBILITY SameMi
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/tsubu-config.cmake" "${CMAKE_CURRENT_BINARY_DIR}/tsubu-config-version.cmake"
     DESTINATION "${package_dir}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/tsubu")
+
+# pkg-config --cflags tsubu, for builds without CMake. With MPI or HDF5 add the flags of theirs.
+set(pc_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
+file(RELATIVE_PATH pc_prefix "/${pc_dir}" "/")
+string(REGEX REPLACE "/$" "" pc_prefix "${pc_prefix}")
+configure_file(cmake/tsubu.pc.in tsubu.pc @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/tsubu.pc" DESTINATION "${pc_dir}")

@@ -9,7 +9,7 @@ from spack.package import *
 class Tsubu(CMakePackage):
     """Header-only C++20 data layer of particle codes: ids, ownership, fields, files, migration and halo."""
 
-    git = f"file://{Path(__file__).resolve().parents[6]}"  # the checkout that this file lies in
+    git = f"file://{Path(__file__).resolve().parents[7]}"  # the checkout that this file lies in
     license("MIT")
     version("main", branch="main")
 

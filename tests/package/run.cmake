@@ -32,6 +32,18 @@ if(WAY STREQUAL "install")
     return()
 endif()
 
+if(WAY STREQUAL "single_include")
+    # In two files of one program, since a function that is not inline is an error only there.
+    file(MAKE_DIRECTORY "${mine}")
+    run("${CMAKE_COMMAND}" --build "${BUILD}" --target tsubu_single_include)
+    file(WRITE "${mine}/other.cpp" "#include <tsubu/tsubu.hpp>\n")
+    separate_arguments(flags UNIX_COMMAND "${strict}")
+    run("${COMPILER}" -std=c++20 ${flags} "-I${BUILD}/single_include" "${SOURCE}/tests/readme/quick_start.cpp" other.cpp
+        -o mine)
+    run("${mine}/mine")
+    return()
+endif()
+
 file(COPY "${SOURCE}/tests/package/${WAY}/" DESTINATION "${mine}")
 set(program "${SOURCE}/tests/readme/quick_start.cpp")
 if(COMPONENT)

@@ -77,6 +77,7 @@ public:
         for (std::size_t k = 0; k < D; ++k) x[k] = start_[k][i * stride()];
         return x;
     }
+    /// Moves point i there.
     void set(std::size_t i, const vec<D, Scalar>& x) const noexcept requires(!std::is_const_v<Scalar>) {
         for (std::size_t k = 0; k < D; ++k) start_[k][i * stride()] = x[k];
     }

@@ -186,6 +186,7 @@ class particle_range {
 public:
     using reference = particle_reference<Store>;
 
+    /// From particle to particle; random access, and what it yields can be swapped, as sorting does.
     class iterator {
     public:
         using iterator_category = std::random_access_iterator_tag;

@@ -5,6 +5,7 @@
 compile_cost.py ROOT --check    compares with budget.json beside this file; exit code 1 if something grew past it
 compile_cost.py ROOT --write    measures anew, and writes budget.json: the way to accept a growth, with its reason in
                                 the commit
+compile_cost.py ROOT --markdown prints a table of budget.json, for the README
   --cxx NAME    whose preprocessor counts lines; default: g++
   --clang NAME  which clang counts instantiations; default: clang++; where it is not found, they are left out
 
@@ -25,7 +26,7 @@ import tempfile
 
 ALLOWED = 0.05          # what small changes add without anybody having to speak of it
 ALLOWED_LINES = 20      # likewise, for small headers
-PROGRAMS = ["quick_start", "bed"]  # one that includes everything and uses little, and one that uses much
+PROGRAMS = ["first", "bed"]  # one that includes everything and uses little, and one that uses much
 BUDGET = pathlib.Path(__file__).with_name("budget.json")
 ACCEPT = "cmake --build <build> --target tsubu_compile_budget"
 
@@ -147,15 +148,44 @@ def write(root, cxx, clang):
     return 0
 
 
+def markdown():
+    """What a user pays: of each room what its heaviest header brings, and of two programs the whole."""
+    budget = json.loads(BUDGET.read_text())
+    heaviest = {}
+    for header, figures in budget["lines"].items():
+        room = header.split("/")[1]
+        if figures["all"] > heaviest.get(room, (0, 0, ""))[0]:
+            heaviest[room] = (figures["all"], figures["own"], header)
+    print(f"Lines after the preprocessor of {budget['preprocessor']}, without blank ones, of the heaviest header of each "
+          f"room.\n")
+    print("| header | lines | of them tsubu's |")
+    print("|---|---|---|")
+    for lines, own, header in sorted(heaviest.values()):
+        if lines:
+            print(f"| `{header}` | {lines} | {own} |")
+    print("\nA program of this page, compiled without optimisation; processor time and greatest memory.\n")
+    print("| program | compiler | s | MiB | templates instantiated | of them tsubu's |")
+    print("|---|---|---|---|---|---|")
+    for program in PROGRAMS:
+        for compiler, effort in budget["effort"].items():
+            counted = budget["instantiations"][program] if compiler == budget["clang"] else {"all": "", "own": ""}
+            print(f"| `{program}.cpp` | {compiler} | {effort[program]['seconds']} | {effort[program]['MiB']} | "
+                  f"{counted['all']} | {counted['own']} |")
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("root", type=pathlib.Path)
     task = parser.add_mutually_exclusive_group(required=True)
     task.add_argument("--check", action="store_true")
     task.add_argument("--write", action="store_true")
+    task.add_argument("--markdown", action="store_true")
     parser.add_argument("--cxx", default="g++")
     parser.add_argument("--clang", default="clang++")
     asked = parser.parse_args()
+    if asked.markdown:
+        return markdown()
     return (check if asked.check else write)(asked.root.resolve(), asked.cxx, shutil.which(asked.clang))
 
 

@@ -16,7 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
-COMMANDS = ("bench/report.py", "cmake/budget.py")  # no others are run
+COMMANDS = ("bench/report.py", "tests/compile_cost/compile_cost.py")  # no others are run
 FENCE = re.compile(r"<!-- (\S+) -->\n```(\w+)\n(.*?)```\n", re.S)
 PRINTED = re.compile(r"<!-- (\S+\.py .*?) -->\n(.*?)<!-- end -->\n", re.S)
 SPDX = re.compile(r"^(//|#) SPDX-License-Identifier: MIT\n")

@@ -7,12 +7,17 @@ include(CMakePackageConfigHelpers)
 # Headers only: the same for every architecture. STRING, not PATH: a relative path is to stay relative.
 set(TSUBU_INSTALL_CMAKEDIR "${CMAKE_INSTALL_DATADIR}/cmake/tsubu" CACHE STRING "Where the CMake package goes")
 mark_as_advanced(TSUBU_INSTALL_CMAKEDIR)
+# CMake takes an absolute place of a FILE_SET for one below the prefix.
+set(include_dir "${CMAKE_INSTALL_INCLUDEDIR}")
+if(IS_ABSOLUTE "${include_dir}")
+    cmake_path(RELATIVE_PATH include_dir BASE_DIRECTORY "${CMAKE_INSTALL_PREFIX}")
+endif()
 foreach(part IN ITEMS core mpi hdf5)
     set(target tsubu_${part})
     if(part STREQUAL "core")
         set(target tsubu)
     endif()
-    install(TARGETS ${target} EXPORT tsubu-${part} FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    install(TARGETS ${target} EXPORT tsubu-${part} FILE_SET HEADERS DESTINATION "${include_dir}")
     install(EXPORT tsubu-${part} NAMESPACE tsubu:: DESTINATION "${TSUBU_INSTALL_CMAKEDIR}")
 endforeach()
 
@@ -26,13 +31,11 @@ install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/tsubu")
 
 # For builds without CMake. There is none for MPI or HDF5: mpicxx, and the hdf5.pc of that library, give their own flags.
 set(pc_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
-if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}" OR IS_ABSOLUTE "${pc_dir}")
+if(IS_ABSOLUTE "${pc_dir}")
     set(pc_prefix "${CMAKE_INSTALL_PREFIX}")
-    set(pc_includedir "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 else()
     file(RELATIVE_PATH pc_prefix "/${pc_dir}" "/")
     string(REGEX REPLACE "/$" "" pc_prefix "\${pcfiledir}/${pc_prefix}") # the place of the file: all of it may be moved
-    set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
 configure_file(cmake/tsubu.pc.in tsubu.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/tsubu.pc" DESTINATION "${pc_dir}")

@@ -32,7 +32,31 @@ if(WAY STREQUAL "install")
     return()
 endif()
 
-if(WAY STREQUAL "single_include")
+if(WAY STREQUAL "places")
+    # Where distributions put things: the package and tsubu.pc have to lead to the headers from there.
+    file(COPY "${SOURCE}/tests/package/find_package/" DESTINATION "${mine}")
+    file(COPY_FILE "${SOURCE}/tests/readme/first.cpp" "${mine}/main.cpp")
+    foreach(place IN ITEMS "-DCMAKE_INSTALL_INCLUDEDIR=include/tsubu-1" "-DCMAKE_INSTALL_INCLUDEDIR=${work}/other/include"
+        "-DCMAKE_INSTALL_DATADIR=lib64/share" "-DCMAKE_INSTALL_DATADIR=${work}/other/share")
+        file(REMOVE_RECURSE "${work}/prefix" "${work}/other" "${work}/library" "${mine}/build")
+        run("${CMAKE_COMMAND}" "-DCMAKE_CXX_COMPILER=${COMPILER}" -DTSUBU_BUILD_TESTS=OFF "${place}"
+            "-DCMAKE_INSTALL_PREFIX=${work}/prefix" -S "${SOURCE}" -B "${work}/library")
+        run("${CMAKE_COMMAND}" --install "${work}/library")
+        file(GLOB_RECURSE package "${work}/prefix/*/tsubu-config.cmake" "${work}/other/*/tsubu-config.cmake")
+        cmake_path(GET package PARENT_PATH folder)
+        configure("-Dtsubu_DIR=${folder}") # CMake refuses folders of headers that do not exist
+        file(GLOB_RECURSE description "${work}/prefix/*/tsubu.pc" "${work}/other/*/tsubu.pc")
+        find_program(TSUBU_PKG_CONFIG pkg-config)
+        if(TSUBU_PKG_CONFIG)
+            execute_process(COMMAND "${TSUBU_PKG_CONFIG}" --variable=includedir "${description}"
+                OUTPUT_VARIABLE headers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+            if(NOT EXISTS "${headers}/tsubu/version.hpp")
+                message(FATAL_ERROR "${place}: tsubu.pc leads to ${headers}, where there are no headers")
+            endif()
+        endif()
+    endforeach()
+    return()
+elseif(WAY STREQUAL "single_include")
     # In two files of one program, since a function that is not inline is an error only there.
     file(MAKE_DIRECTORY "${mine}")
     run("${CMAKE_COMMAND}" --build "${BUILD}" --target tsubu_single_include)

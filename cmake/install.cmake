@@ -21,15 +21,15 @@ foreach(part IN ITEMS core mpi hdf5)
     install(EXPORT tsubu-${part} NAMESPACE tsubu:: DESTINATION "${TSUBU_INSTALL_CMAKEDIR}")
 endforeach()
 
-configure_package_config_file(cmake/tsubu-config.cmake.in tsubu-config.cmake INSTALL_DESTINATION "${TSUBU_INSTALL_CMAKEDIR}"
-    NO_SET_AND_CHECK_MACRO)
+configure_package_config_file(cmake/tsubu-config.cmake.in tsubu-config.cmake
+    INSTALL_DESTINATION "${TSUBU_INSTALL_CMAKEDIR}" NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may change the interface, so 0.1 does not satisfy a request for 0.2, nor the reverse.
 write_basic_package_version_file(tsubu-config-version.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/tsubu-config.cmake" "${CMAKE_CURRENT_BINARY_DIR}/tsubu-config-version.cmake"
     DESTINATION "${TSUBU_INSTALL_CMAKEDIR}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/licenses/tsubu")
 
-# For builds without CMake. There is none for MPI or HDF5: mpicxx, and the hdf5.pc of that library, give their own flags.
+# For builds without CMake. There is none for MPI or HDF5: mpicxx, and the hdf5.pc of that library, give their flags.
 set(pc_dir "${CMAKE_INSTALL_DATADIR}/pkgconfig")
 if(IS_ABSOLUTE "${pc_dir}")
     set(pc_prefix "${CMAKE_INSTALL_PREFIX}")

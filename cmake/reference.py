@@ -22,8 +22,8 @@ CARD = re.compile(r"(\s*/// )(?:(Bytes per id|Bytes|Collective|Complexity|Concep
                   r"Invalidates|Invariant|Memory|Order|Precondition|Reference|Source|Threads|Writes):|"
                   r"(Choose it|Do not)(?= ))\s+(?=\S)")
 KNOWN_WORDS = {"begin", "end", "cbegin", "cend", "size", "empty", "data", "swap", "clear", "capacity", "reserve",
-               "resize", "push_back", "pop_back", "front", "back", "at", "get_allocator", "allocate", "deallocate", "min",
-               "max", "get", "count", "insert", "emplace", "first", "second", "value", "span", "view", "path"}
+               "resize", "push_back", "pop_back", "front", "back", "at", "get_allocator", "allocate", "deallocate",
+               "min", "max", "get", "count", "insert", "emplace", "first", "second", "value", "span", "view", "path"}
 
 
 def is_table(lines):

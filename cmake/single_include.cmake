@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# The target tsubu_single_include makes <build>/single_include/tsubu/tsubu.hpp: all of tsubu but MPI and HDF5 in one file,
-# for a program that takes one file and no more. Not installed: beside the headers that it repeats it would be a trap,
-# since a program that included both would see everything twice.
+# The target tsubu_single_include makes <build>/single_include/tsubu/tsubu.hpp: all of tsubu but MPI and HDF5 in one
+# file, for a program that takes one file and no more. Not installed: beside the headers that it repeats it would be a
+# trap, since a program that included both would see everything twice.
 find_package(Python3 QUIET COMPONENTS Interpreter)
 if(Python3_FOUND)
     set(single_header "${PROJECT_BINARY_DIR}/single_include/tsubu/tsubu.hpp")

@@ -5,8 +5,8 @@
 single_include.py INCLUDE UMBRELLA OUTPUT
 single_include.py include tsubu/tsubu.hpp build/single_include/tsubu/tsubu.hpp
 
-Each header begins with a line that names it, so that the place of an error is found; #line is not used, for it would name
-files that whoever has the single one does not have.
+Each header begins with a line that names it, so that the place of an error is found; #line is not used, for it would
+name files that whoever has the single one does not have.
 """
 import pathlib
 import re
@@ -85,8 +85,8 @@ class SingleInclude:
         body = list(self.place(umbrella))
         licence = (self.root.parent / "LICENSE").read_text(encoding="utf-8").splitlines()
         yield "// SPDX-License-Identifier: MIT"
-        yield f"// tsubu {version}: <{umbrella}> and all that it includes, made by cmake/single_include.py. Either this file"
-        yield "// or the headers that it was made of, not both in one program."
+        yield f"// tsubu {version}: <{umbrella}> and all that it includes, made by cmake/single_include.py. Either this"
+        yield "// file or the headers that it was made of, not both in one program."
         yield "//"
         yield from (f"// {line}".rstrip() for line in licence)
         yield "#pragma once"

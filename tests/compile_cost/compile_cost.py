@@ -9,10 +9,10 @@ compile_cost.py ROOT --markdown prints a table of budget.json, for the README
   --cxx NAME    whose preprocessor counts lines; default: g++
   --clang NAME  which clang counts instantiations; default: clang++; where it is not found, they are left out
 
-Counted are, for each public header, the lines that are left after the preprocessor, blank ones aside: those of tsubu itself
-and all, with the standard library's; and, for two programs of the README, the templates that are instantiated. Both are
-the same at every run. Lines and instantiations of others are compared only if the compiler is the one of budget.json.
-Time and memory are written down as well, as the machine had them, and compared with nothing.
+Counted are, for each public header, the lines that are left after the preprocessor, blank ones aside: those of tsubu
+itself and all, with the standard library's; and, for two programs of the README, the templates that are instantiated.
+Both are the same at every run. Those of others are compared only if the compiler is the one of budget.json. Time and
+memory are written down as well, as the machine had them, and compared with nothing.
 """
 import argparse
 import collections
@@ -126,8 +126,8 @@ def check(root, cxx, clang):
         if bad[0][1] in found["lines"]:  # that which has grown most is the nearest to the cause
             greatest = collections.Counter(lines_by_file(root, cxx, bad[0][1])).most_common(8)
             print(f"  most of {bad[0][1]}: " + ", ".join(f"{n} {pathlib.Path(f).name}" for f, n in greatest))
-        print(f"Whoever includes these pays that, each time a program is compiled. Leave out an include or a template that\n"
-              f"few need; or, if it is worth it, accept it by\n    {ACCEPT}\nand give the reason in the commit.")
+        print(f"Whoever includes these pays that, each time a program is compiled. Leave out an include or a template\n"
+              f"that few need; or, if it is worth it, accept it by\n    {ACCEPT}\nand give the reason in the commit.")
         return 1
     said = f"{len(found['lines'])} headers"
     said += f" and {len(found['instantiations'])} programs" if clang else "; no clang here to count instantiations"
@@ -156,8 +156,8 @@ def markdown():
         room = header.split("/")[1]
         if figures["all"] > heaviest.get(room, (0, 0, ""))[0]:
             heaviest[room] = (figures["all"], figures["own"], header)
-    print(f"Lines after the preprocessor of {budget['preprocessor']}, without blank ones, of the heaviest header of each "
-          f"room.\n")
+    print(f"Lines after the preprocessor of {budget['preprocessor']}, without blank ones, of the heaviest header of "
+          f"each room.\n")
     print("| header | lines | of them tsubu's |")
     print("|---|---|---|")
     for lines, own, header in sorted(heaviest.values()):

@@ -4,9 +4,10 @@
 
 recipes.py vcpkg|conan|spack SOURCE WORK PREFIX VERSION COMPILER
 
-What the recipe calls is stood in for by the few lines below and by vcpkg_functions.cmake, which do what the documentation
-of the three systems says that their functions do. So this finds a path, a name, an option or a version that is wrong, and
-a file that is missing; it does not find what only the real systems check. PREFIX is an install of the same checkout.
+What the recipe calls is stood in for by the few lines below and by vcpkg_functions.cmake, which do what the
+documentation of the three systems says that their functions do. So this finds a path, a name, an option or a version
+that is wrong, and a file that is missing; it does not find what only the real systems check. PREFIX is an install of
+the same checkout.
 """
 import fnmatch
 import importlib.util
@@ -189,10 +190,12 @@ def spack(package):
            f"the recipe takes {recipe.git}, not the checkout that it lies in")
     variants = {words[0] for words, _ in said["variant"]}
     expect(variants == package.components, f"variants {variants}")
-    brought = {options["when"][1:]: words[0].split("@")[0] for words, options in said["depends_on"] if "when" in options}
+    brought = {options["when"][1:]: words[0].split("@")[0]
+               for words, options in said["depends_on"] if "when" in options}
     expect(brought == {name: name for name in variants}, f"what the variants bring: {brought}")
     wanted = [words[0] for words, _ in said["depends_on"] if words[0].startswith("cmake@")]
-    least = re.search(r"cmake_minimum_required\(VERSION ([0-9.]+)\.\.\.", (package.source / "CMakeLists.txt").read_text())
+    least = re.search(r"cmake_minimum_required\(VERSION ([0-9.]+)\.\.\.",
+                      (package.source / "CMakeLists.txt").read_text())
     expect(wanted == [f"cmake@{least[1]}:"], f"wants {wanted}, CMakeLists.txt {least[1]}")
     build = package.work / "build"
     run("cmake", "-S", package.source, "-B", build, f"-DCMAKE_CXX_COMPILER={package.compiler}",

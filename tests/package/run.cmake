@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# cmake -DWAY=<folder> -D... -P run.cmake: a user's project, tests/package/<folder>, with the first program of the README,
-# built by that way of use with strict warnings as errors, and run. The project is copied out of the checkout first, so
-# that it can lean on nothing here.
+# cmake -DWAY=<folder> -D... -P run.cmake: a user's project, tests/package/<folder>, with the first program of the
+# README, built by that way of use with strict warnings as errors, and run. The project is copied out of the checkout
+# first, so that it can lean on nothing here.
 cmake_minimum_required(VERSION 3.25)
 set(work "${BUILD}/tests/package/${WAY}${COMPONENT}")
 set(mine "${work}/mine")
@@ -36,8 +36,8 @@ if(WAY STREQUAL "places")
     # Where distributions put things: the package and tsubu.pc have to lead to the headers from there.
     file(COPY "${SOURCE}/tests/package/find_package/" DESTINATION "${mine}")
     file(COPY_FILE "${SOURCE}/tests/readme/first.cpp" "${mine}/main.cpp")
-    foreach(place IN ITEMS "-DCMAKE_INSTALL_INCLUDEDIR=include/tsubu-1" "-DCMAKE_INSTALL_INCLUDEDIR=${work}/other/include"
-        "-DCMAKE_INSTALL_DATADIR=lib64/share" "-DCMAKE_INSTALL_DATADIR=${work}/other/share")
+    foreach(place IN ITEMS "-DCMAKE_INSTALL_INCLUDEDIR=include/tsubu-1"
+        "-DCMAKE_INSTALL_INCLUDEDIR=${work}/other/include" "-DCMAKE_INSTALL_DATADIR=lib64/share" "-DCMAKE_INSTALL_DATADIR=${work}/other/share")
         file(REMOVE_RECURSE "${work}/prefix" "${work}/other" "${work}/library" "${mine}/build")
         run("${CMAKE_COMMAND}" "-DCMAKE_CXX_COMPILER=${COMPILER}" -DTSUBU_BUILD_TESTS=OFF "${place}"
             "-DCMAKE_INSTALL_PREFIX=${work}/prefix" -S "${SOURCE}" -B "${work}/library")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# cmake -DPORTFILE=... -P vcpkg_functions.cmake: runs a port with stand-ins for the functions of vcpkg that tsubu's calls,
-# then looks at the package as vcpkg's checks after a build do. They refuse arguments that the real ones do not have.
+# cmake -DPORTFILE=... -P vcpkg_functions.cmake: runs a port with stand-ins for the functions of vcpkg that tsubu's port
+# calls, then looks at the package as vcpkg's checks after a build do. They refuse arguments that the real ones lack.
 cmake_minimum_required(VERSION 3.25)
 
 function(refuse_rest)

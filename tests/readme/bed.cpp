@@ -19,10 +19,11 @@ int main() {
                                     dem::gravity{{0, 0, -1}}, dem::equal_spheres{.radius = 0.5, .mass = 1});
 
     tsubu::random_stream random(7);
-    for (int i = 0; i < 125; ++i)
-        bed.particles().push_back(tsubu::id = i, tsubu::position<3> = {1.2 * (i % 5) + 0.1 * random.unit(),
-                                                                       1.2 * (i / 5 % 5) + 0.1 * random.unit(),
-                                                                       1.2 * (i / 25) + 1});
+    for (int i = 0; i < 125; ++i) {
+        const int column = i % 5, row = i / 5 % 5, layer = i / 25;
+        const double x = 1.2 * column + 0.1 * random.unit(), y = 1.2 * row + 0.1 * random.unit();
+        bed.particles().push_back(tsubu::id = i, tsubu::position<3> = {x, y, 1.2 * layer + 1});
+    }
     bed.start();  // each to its rank; neighbours, forces
     for (int n = 0; n < 5; ++n) {
         bed.steps(1500);

@@ -104,8 +104,9 @@ static_assert(
 
 // An integrator's own are carried where it is.
 using implicit_gas = gas_scene<hooke_dashpot<>, implicit_velocity_verlet>::simulation;
-static_assert(implicit_gas::bytes_per_particle == gas::bytes_per_particle + 3 * 8);
-static_assert(gas_scene<hooke<>, runge_kutta_4>::simulation::bytes_per_particle == gas::bytes_per_particle + 12 * 8);
+static_assert(implicit_gas::bytes_per_particle == gas::bytes_per_particle + 3 * sizeof(double));
+static_assert(gas_scene<hooke<>, runge_kutta_4>::simulation::bytes_per_particle ==
+              gas::bytes_per_particle + 12 * sizeof(double));
 static_assert(gas_scene<hooke<>, pefrl>::simulation::bytes_per_particle == gas::bytes_per_particle);
 
 // Numbers: what each policy takes.

@@ -9,6 +9,7 @@
 template class tsubu::id_map<tsubu::testing::minimal_id_storage<std::int64_t>>;
 template class tsubu::id_map<tsubu::testing::minimal_id_storage<std::uint32_t>>;
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type stands in none.
 #define TSUBU_TEST_ALL_POLICIES(Id)                                      \
     template class tsubu::id_map<tsubu::adaptive_storage<Id>>;           \
     template class tsubu::id_map<tsubu::bitmap_storage<Id>>;             \
@@ -17,6 +18,7 @@ template class tsubu::id_map<tsubu::testing::minimal_id_storage<std::uint32_t>>;
     template class tsubu::id_map<tsubu::dense_storage<Id>>;              \
     template class tsubu::id_map<tsubu::flat_storage<Id>>;               \
     template class tsubu::id_map<tsubu::paged_storage<Id>>
+// NOLINTEND(bugprone-macro-parentheses)
 
 TSUBU_TEST_ALL_POLICIES(std::int64_t);
 TSUBU_TEST_ALL_POLICIES(std::uint64_t);

@@ -70,7 +70,7 @@ static_assert(is_sum_of_fields<tsubu::soa> && is_sum_of_fields<tsubu::aos> && is
 // What aos and aosoa lay out; unit/store/test_particle_store.cpp weighs the memory of all layouts.
 template <std::size_t N>
 using flat_block = tsubu::detail::record<N, std::int64_t, tsubu::vec<2>, tsubu::vec<2>, tsubu::vec<2>, double, double>;
-static_assert(flat_block<1>::size == 72 && flat_block<16>::size == 16 * 72);
+static_assert(flat_block<1>::size == 72 && flat_block<16>::size == 16 * std::size_t{72});
 
 // What a program would write by hand.
 struct disc {

@@ -55,6 +55,7 @@ public:
             fail(failed);
         }
     }
+    /// Whether this rank has caught an exception; of the others it knows nothing before the reduction.
     [[nodiscard]] bool has_failed_here() const noexcept { return own_ != nullptr; }
     /// What this rank adds to sum k; after the reduction the sum.
     [[nodiscard]] std::uint64_t& operator[](std::size_t k) noexcept { return words_[own_words + k]; }

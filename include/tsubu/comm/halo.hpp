@@ -59,6 +59,7 @@ public:
     /// Of no particles: something for make_halo to be assigned to.
     halo() = default;
 
+    /// How many particles were owned when the halo was made; the ghosts lie behind them.
     [[nodiscard]] std::size_t owned_count() const noexcept { return owned_; }
     [[nodiscard]] std::size_t ghost_count() const noexcept { return shifts_.size(); }
     /// By how many periods ghost k, which is particle owned_count() + k, has been moved from its owner's position.
@@ -76,6 +77,7 @@ public:
     [[nodiscard]] std::size_t sent_messages() const noexcept {
         return sum([](const round_type& one) { return one.receivers(); });
     }
+    /// Messages that this rank gets at each forward.
     [[nodiscard]] std::size_t received_messages() const noexcept {
         return sum([](const round_type& one) { return one.senders(); });
     }

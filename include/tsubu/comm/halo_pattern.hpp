@@ -33,7 +33,7 @@ template <decomposition Parts>
 struct halo_asker {
     rank_t rank;
     image_shift<Parts::dimension> shift;  ///< of the ghosts, from where their particles are here
-    detail::near_part<Parts> near;
+    detail::near_part<Parts> near;        ///< which particles it wants: those near its subdomain
 };
 /// A round of messages. What may go are the groups from .. to - 1 of particles: group 0 are the owned ones, group k the
 /// ghosts that have come in step k - 1.
@@ -41,7 +41,7 @@ template <decomposition Parts>
 struct halo_step {
     std::size_t from = 0;
     std::size_t to = 1;
-    std::vector<halo_asker<Parts>> askers{};
+    std::vector<halo_asker<Parts>> askers{};  ///< who gets ghosts in this step
 };
 
 /// How ghosts reach those that ask for them.

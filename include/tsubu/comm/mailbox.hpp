@@ -46,6 +46,7 @@ public:
         return sum;
     }
 
+    /// From message to message, in the order of their senders.
     class iterator {
     public:
         using value_type = parcel;

@@ -341,7 +341,7 @@ private:
 /// zeros where a particle comes.
 ///
 /// @param on_lost  what becomes of particles beyond faces that are not periodic: refuse_lost, clamp_lost, collect_lost
-/// @param carried  the fields<...> that go along: without those that are computed anew before they are read
+/// @tparam Carried  the fields<...> that go along: without those that are computed anew before they are read
 /// @return what this rank has sent and received
 /// @throws on all ranks or none: input_error if a position is not finite, or has left the box and may not (the message
 ///         names ids and positions), or the ranks are not those of the decomposition; limit_error, or std::bad_alloc on

@@ -104,6 +104,7 @@ struct lanes {
     [[gnu::always_inline]] void store(Real* to) const noexcept { __builtin_memcpy(to, &value, sizeof(value)); }
 
     [[nodiscard, gnu::always_inline]] Real operator[](std::size_t l) const noexcept { return value[l]; }
+    /// Makes lane l this number.
     [[gnu::always_inline]] void set(std::size_t l, Real to) noexcept { value[l] = to; }
 
     [[gnu::always_inline]] friend lanes operator+(const lanes& a, const lanes& b) noexcept {

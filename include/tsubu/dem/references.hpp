@@ -8,6 +8,7 @@
 
 namespace tsubu::dem {
 
+/// The circle's circumference over its diameter.
 inline constexpr double pi = 3.14159265358979323846;
 
 /// How an impact ends.

@@ -32,6 +32,7 @@
 
 namespace tsubu::dem {
 
+/// A scene that runs: what a simulation says, made for a box, a transport and parameters; see make_run.
 template <class Simulation, transport Transport>
 class run {
     static_assert(sizeof(Simulation) == 0, "what runs is a tsubu::dem::simulation<D, Number, Integrator, Models...>");
@@ -170,6 +171,7 @@ public:
         expect_columns();
         return at_.real_position(i);
     }
+    /// The acceleration of every particle [m/s^2]; zeros in a scene without gravity.
     [[nodiscard]] const vec<D, double>& gravity_acceleration() const noexcept { return gravity_; }
 
     // What integrators are made of. Durations in seconds.

@@ -40,6 +40,7 @@ struct runge_kutta_4 {
         vector_type moved;     ///< sum of weighted velocities [m/s]
         vector_type kicked;    ///< sum of weighted accelerations [m/s^2]
     };
+    /// What a particle carries from stage to stage: where the step began, and the sums so far.
     template <class Q>
     static constexpr field<"runge_kutta_progress", progress<Q>, "", field_traits{.when = travels::never}> so_far{};
     template <class Q>

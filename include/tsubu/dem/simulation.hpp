@@ -85,6 +85,7 @@ struct simulation {
     using gravity_type = typename detail::model_for<model_role::acceleration, Models...>::type;
     using given_bodies = typename detail::model_for<model_role::bodies, Models...>::type;
     using bodies_type = std::conditional_t<std::is_void_v<given_bodies>, equal_spheres, given_bodies>;
+    /// Whether a model says what size and mass the particles have; else they are equal_spheres.
     static constexpr bool names_bodies = !std::is_void_v<given_bodies>;
     /// The parameters of the models, in the order of a run's arguments.
     using models_type =

@@ -23,6 +23,7 @@ template <std::size_t D, class Real, class Make>
     }
     (std::make_index_sequence<D>{});
 }
+/// The scalar product.
 template <std::size_t D, class Real>
 [[nodiscard, gnu::always_inline]] inline Real dot(const vec<D, Real>& a, const vec<D, Real>& b) noexcept {
     Real sum = a[0] * b[0];

@@ -44,7 +44,7 @@ struct walls {
     template <class Q>
     using writes = fields<Q::force>;
 
-    std::vector<plane> planes;
+    std::vector<plane> planes;  ///< each pushes to the side that its normal points to
 
     /// @throws input_error if a normal has not the length 1, to within 1e-12, or a point is not finite.
     void check() const {

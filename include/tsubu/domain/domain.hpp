@@ -37,7 +37,7 @@ struct wrapped {
 /// The shortest edge, and its axis.
 template <class Real>
 struct shortest_extent {
-    Real width;
+    Real width;  ///< its length
     std::size_t axis;
 };
 

@@ -117,7 +117,7 @@ template <class Scalar>
 /// NaN and infinities are not finite: x - x is 0 for all others.
 template <std::floating_point Scalar>
 [[nodiscard]] constexpr bool is_finite(Scalar x) noexcept {
-    return x - x == 0;
+    return x - x == 0;  // NOLINT(misc-redundant-expression)
 }
 
 }  // namespace detail

@@ -21,7 +21,7 @@ template <std::signed_integral Int>
 struct lattice {
     Int value = 0;
 
-    friend constexpr auto operator<=>(lattice, lattice) noexcept = default;
+    friend constexpr auto operator<=>(lattice, lattice) noexcept = default;  // NOLINT(modernize-use-nullptr)
     /// Moves on by an offset in lattice steps, around the axis as often as need be.
     friend constexpr lattice operator+(lattice at, Int offset) noexcept {
         using Unsigned = std::make_unsigned_t<Int>;

@@ -56,8 +56,8 @@ public:
     }
     /// Any contiguous range of vec<D, Scalar>.
     template <class Rows>
-    requires std::convertible_to<Rows&&, std::span<row>> points(Rows&& x)
-    noexcept {
+        requires std::convertible_to<Rows&&, std::span<row>>
+    points(Rows&& x) noexcept {  // NOLINT(bugprone-forwarding-reference-overload): points are no range of rows
         const std::span<row> rows(x);
         count_ = rows.size();
         for (std::size_t k = 0; k < D && !rows.empty(); ++k) start_[k] = rows.front().data() + k;
@@ -77,6 +77,7 @@ public:
         for (std::size_t k = 0; k < D; ++k) x[k] = start_[k][i * stride()];
         return x;
     }
+    /// Moves point i there.
     void set(std::size_t i, const vec<D, Scalar>& x) const noexcept requires(!std::is_const_v<Scalar>) {
         for (std::size_t k = 0; k < D; ++k) start_[k][i * stride()] = x[k];
     }

@@ -86,6 +86,7 @@ public:
     }
 
     [[nodiscard]] std::size_t sectors() const noexcept { return turns_.size(); }
+    /// Where the axis pierces the plane of x and y.
     [[nodiscard]] const vec<2, Scalar>& axis_at() const noexcept { return axis_at_; }
     /// The cell coordinates of the sector: what a decomposition divides.
     [[nodiscard]] const cell_type& cell() const noexcept { return cell_; }

@@ -14,6 +14,7 @@ enum class flat_lines {
     keyed,   ///< 8-byte keys and 4-byte indices, 20 bytes per id: anything beyond
 };
 
+/// For messages: "narrow", and so on.
 [[nodiscard]] constexpr const char* name_of(flat_lines lines) noexcept {
     switch (lines) {
         case flat_lines::narrow: return "narrow";

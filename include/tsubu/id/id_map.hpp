@@ -83,7 +83,14 @@ public:
         return index;
     }
 
-    /// Makes this the map of exactly these ids, whatever it held.
+    /// Makes this the map of exactly these ids, whatever it held; the calling thread does it.
+    void rebuild(std::span<const id_type> ids) { rebuild(ids, this_thread{}); }
+    void rebuild(std::span<const id_type> ids, same_id_links& same) { rebuild(ids, same, this_thread{}); }
+    template <executor Executor>
+    void rebuild(std::span<const id_type> ids, const Executor& on) {
+        rebuild_storage(ids, {}, on);
+    }
+    /// Makes this the map of exactly these ids, whatever it held, and links the copies of each.
     ///
     /// @param ids   ids of all particles of the rank, owned first, N < 2^31; ids[i] belongs to index i
     /// @param same  receives the links between copies of one id; its memory is reused
@@ -93,12 +100,6 @@ public:
     /// @throws limit_error  for N >= 2^31, or a table past the memory limit of the policy
     /// Strong guarantee (for the one far corner of it: flat_storage).
     /// Source: A4, A12, A13.
-    void rebuild(std::span<const id_type> ids) { rebuild(ids, this_thread{}); }
-    void rebuild(std::span<const id_type> ids, same_id_links& same) { rebuild(ids, same, this_thread{}); }
-    template <executor Executor>
-    void rebuild(std::span<const id_type> ids, const Executor& on) {
-        rebuild_storage(ids, {}, on);
-    }
     template <executor Executor>
     void rebuild(std::span<const id_type> ids, same_id_links& same, const Executor& on) {
         check_count("id_map::rebuild", ids.size());

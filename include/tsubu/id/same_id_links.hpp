@@ -27,6 +27,7 @@ class id_map;
 /// Invalidates: lives as long as the same_id_links it came from is neither rebuilt nor destroyed.
 class image_range {
 public:
+    /// From copy to copy, the lowest index first.
     class iterator {
     public:
         using value_type = index_t;

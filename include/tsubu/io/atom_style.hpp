@@ -40,6 +40,7 @@ inline constexpr std::array<std::string_view, 6> atom_style_names{"atomic", "sph
     return std::nullopt;
 }
 
+/// What columns a style has besides id, type and position.
 [[nodiscard]] constexpr bool is_sphere(atom_style style) noexcept { return style == atom_style::sphere; }
 [[nodiscard]] constexpr bool has_charge(atom_style style) noexcept { return style == atom_style::full; }
 [[nodiscard]] constexpr bool has_molecule(atom_style style) noexcept {

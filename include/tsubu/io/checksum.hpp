@@ -79,6 +79,7 @@ private:
     sum.add(bytes);
     return sum.value();
 }
+/// The same of 64-bit words, byte by byte as they lie in memory.
 [[nodiscard]] inline std::uint64_t crc64_of(std::span<const std::uint64_t> words) noexcept {
     return crc64_of(std::as_bytes(words));
 }

@@ -68,6 +68,7 @@ template <class Field>
 
 }  // namespace detail
 
+/// Of fields<...> only: the set that is written names each of them.
 template <class Fields>
 class h5md_writer;
 
@@ -122,6 +123,7 @@ public:
         : h5md_writer(std::move(path), restart_box(box), detail::is_tilted_box<Box>, options) {}
 
     [[nodiscard]] const std::string& path() const noexcept { return frames_.file().path(); }
+    /// How many frames the file holds.
     [[nodiscard]] std::size_t frames() const noexcept { return frames_.frames(); }
 
     /// Adds the owned particles of a store as a frame.

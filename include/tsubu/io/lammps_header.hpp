@@ -32,6 +32,7 @@ struct lammps_count {
 ///     auto box = top.box({true, true, false});
 struct lammps_header {
     std::string title{};
+    /// How many rows each section has, and of how many types.
     lammps_count atoms{};
     lammps_count bonds{};
     lammps_count angles{};

@@ -13,14 +13,16 @@ namespace tsubu {
 /// What happens at sections and lines of the header that tsubu does not know, such as Pair Coeffs.
 enum class unknown_lines { refuse, skip };
 
+/// What read_lammps takes for granted, and what it lets pass.
 struct lammps_read_options {
     std::optional<atom_style> style{};  ///< else the file says it: "Atoms # full"
-    unknown_lines unknown = unknown_lines::refuse;
+    unknown_lines unknown = unknown_lines::refuse;  ///< sections and lines that the reader does not know
     bool allows_repeats = false;        ///< terms in which a particle is twice, such as a bond to itself
     bool velocities_may_lack = false;   ///< a file without Velocities leaves them 0, as in LAMMPS
     std::size_t chunk = std::size_t{1} << 20;  ///< characters held at a time; no line may be longer, nor than 65536
 };
 
+/// How write_lammps writes.
 struct lammps_write_options {
     /// Else the least that has all fields of the store. A style that is named writes the columns that it has, whatever
     /// else is in the store.

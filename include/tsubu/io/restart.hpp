@@ -212,6 +212,7 @@ public:
         : restart_reader(file_source(std::move(path))) {}
 
     [[nodiscard]] const restart_state& state() const noexcept { return header_.state; }
+    /// What the file holds of each particle, whether or not it is read.
     [[nodiscard]] std::span<const restart_field> fields_in_file() const noexcept { return header_.fields; }
     /// One for each rank that has written.
     [[nodiscard]] std::span<const restart_part> parts() const noexcept { return header_.parts; }

@@ -103,7 +103,7 @@ struct restart_field {
 /// What one rank has written.
 struct restart_part {
     std::uint64_t particles = 0;
-    std::uint64_t blocks = 0;
+    std::uint64_t blocks = 0;  ///< each with a checksum of its own
     std::uint64_t bytes = 0;
 
     friend bool operator==(const restart_part&, const restart_part&) = default;

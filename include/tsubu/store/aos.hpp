@@ -22,6 +22,7 @@ namespace tsubu {
 /// Choose it when particles are mostly moved as a whole, sorted or permuted: up to 1.8 times as fast as soa there. Do
 ///           not when loops use some of the fields: soa, in random order too.
 struct aos {
+    /// The memory of one store.
     template <class... Values>
     class memory {
         using record = detail::record<1, Values...>;

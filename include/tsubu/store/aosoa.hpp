@@ -27,6 +27,7 @@ template <std::size_t N = 16>
 struct aosoa {
     static_assert(N > 0, "a block holds at least one particle");
 
+    /// The memory of one store.
     template <class... Values>
     class memory {
         using record = detail::record<N, Values...>;

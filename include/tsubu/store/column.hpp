@@ -78,6 +78,7 @@ class column {
 public:
     using value_type = std::remove_const_t<Value>;
 
+    /// From element to element; random access.
     class cursor {
     public:
         using iterator_category = std::random_access_iterator_tag;

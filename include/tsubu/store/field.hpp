@@ -94,6 +94,7 @@ struct fields {
     static constexpr std::size_t times =
         (std::size_t{0} + ... + (std::is_same_v<decltype(Fields), Field> ? std::size_t{1} : std::size_t{0}));
     static_assert(((times<decltype(Fields)> == 1) && ...), "tsubu::fields names a field twice; name each once");
+    /// How many fields of the set have the name of this one.
     template <class Field>
     static constexpr std::size_t namesakes =
         (std::size_t{0} + ... + (decltype(Fields)::name == Field::name ? std::size_t{1} : std::size_t{0}));

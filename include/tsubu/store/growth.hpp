@@ -18,8 +18,9 @@
 
 namespace tsubu {
 
-/// Particles per block of memory (C1), and of what only some particles have (C2).
+/// Particles per block of memory (C1).
 inline constexpr std::uint64_t store_block = 16384;
+/// Entries per block of what only some particles have (C2).
 inline constexpr std::uint64_t bonus_block = 8192;
 
 /// The next capacity in whole blocks, strictly greater: 16384 -> 32768 (C1, C2). @throws limit_error past 64 bits.

@@ -91,7 +91,7 @@ public:
         TSUBU_EXPECTS(i < store.size(), "no particle with this index; indices go from 0 to size() - 1");
     }
     particle_reference(const particle_reference&) = default;
-    particle_reference(particle_reference&&) = default;
+    particle_reference(particle_reference&&) noexcept = default;
     ~particle_reference() = default;
 
     [[nodiscard]] std::size_t index() const noexcept { return i_; }
@@ -186,6 +186,7 @@ class particle_range {
 public:
     using reference = particle_reference<Store>;
 
+    /// From particle to particle; random access, and what it yields can be swapped, as sorting does.
     class iterator {
     public:
         using iterator_category = std::random_access_iterator_tag;

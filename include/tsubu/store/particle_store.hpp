@@ -31,6 +31,7 @@
 
 namespace tsubu {
 
+/// Of fields<...> only: a store is told each field that its particles carry.
 template <class Fields, class Layout = soa, class Growth = geometric_growth>
 class particle_store;
 
@@ -113,6 +114,7 @@ public:
 
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] std::size_t owned_count() const noexcept { return owned_; }
+    /// How many are ghosts: those from index owned_count() on.
     [[nodiscard]] std::size_t ghost_count() const noexcept { return size_ - owned_; }
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] std::size_t capacity() const noexcept { return memory_.capacity(); }

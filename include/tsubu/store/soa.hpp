@@ -51,6 +51,7 @@ private:
 /// Choose it unless a measurement says otherwise: loops over fields, neighbours and packing are as fast in it as in any
 ///           layout, or faster. Do not when particles are mostly moved as a whole, in random order: aos.
 struct soa {
+    /// The memory of one store.
     template <class... Values>
     class memory {
         static constexpr auto all = std::index_sequence_for<Values...>{};

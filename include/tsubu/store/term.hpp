@@ -26,10 +26,13 @@ struct term {
     friend constexpr auto operator<=>(const term&, const term&) noexcept = default;
 };
 
-/// The terms that a particle keeps: see topology.
+/// The terms of two that a particle keeps: see topology.
 inline constexpr field<"bonds", list_of<term<2>>> bonds{};
+/// Of three, the middle one between its partners.
 inline constexpr field<"angles", list_of<term<3>>> angles{};
+/// Of four in a row.
 inline constexpr field<"dihedrals", list_of<term<4>>> dihedrals{};
+/// Of four, one of which is held in, or out of, the plane of the others.
 inline constexpr field<"impropers", list_of<term<4>>> impropers{};
 
 }  // namespace tsubu

@@ -20,6 +20,7 @@ namespace tsubu::testing {
 template <particle_id Id>
 class id_model {
 public:
+    /// An id, and where it is.
     struct entry {
         Id id;
         index_t index;

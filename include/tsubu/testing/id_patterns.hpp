@@ -33,8 +33,10 @@ enum class id_pattern {
     full_width,     ///< any value that the type holds and that is not negative
     extremes,       ///< 0, the highest value of the type, powers of two, and their neighbours
 };
+/// How many patterns there are.
 inline constexpr std::size_t id_pattern_count = static_cast<std::size_t>(id_pattern::extremes) + 1;
 
+/// For messages and tables.
 [[nodiscard]] constexpr const char* name_of(id_pattern pattern) noexcept {
     constexpr const char* names[id_pattern_count] = {"lattice",     "equal",         "repeated",     "blocks",
                                                      "sparse",      "stride_1009",   "stride_32771", "stride_65536",

@@ -60,6 +60,7 @@ public:
     [[nodiscard]] double force() const noexcept { return store_[quantities_type::force][0][0]; }
     /// What the spring does at x.
     [[nodiscard]] double spring_force() const noexcept { return -stiffness_ * x(); }
+    /// How often the force has been asked for.
     [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
     [[nodiscard]] std::size_t steps_done() const noexcept { return steps_done_; }
     /// Whether forces were clear whenever they were evaluated.

@@ -39,7 +39,9 @@ struct layout_law {
     static constexpr const char* copied = "law 7: a copy is independent of its source";
 };
 
-namespace detail {
+}  // namespace tsubu::testing
+
+namespace tsubu::detail {
 
 /// A layout and its model, and what may happen to both.
 template <particle_layout Layout, class Check, class... Values>
@@ -58,18 +60,18 @@ public:
         if (dice == 2) return copy();
         if (dice < 6) {
             write(random_.below(rows_.size()));
-            return report(holds(memory_, rows_), layout_law::apart);
+            return report(holds(memory_, rows_), testing::layout_law::apart);
         }
         const auto i = random_.below(rows_.size());
         const auto j = random_.below(rows_.size());
         if (dice < 11) {
             memory_.copy_row(i, j);
             rows_[j] = rows_[i];
-            report(holds(memory_, rows_), layout_law::copy_row);
+            report(holds(memory_, rows_), testing::layout_law::copy_row);
         } else {
             memory_.swap_rows(i, j);
             std::swap(rows_[i], rows_[j]);
-            report(holds(memory_, rows_), layout_law::swap_rows);
+            report(holds(memory_, rows_), testing::layout_law::swap_rows);
         }
     }
     /// Laws 1, 2 and 6, of `count` rows.
@@ -98,14 +100,14 @@ public:
         bool is_apart = true;
         for (std::size_t k = 1; k < taken.size(); ++k)
             is_apart = is_apart && taken[k].first - taken[k - 1].first >= taken[k - 1].second;
-        report(is_aligned && is_apart, layout_law::apart);
-        report(is_found, layout_law::place);
+        report(is_aligned && is_apart, testing::layout_law::apart);
+        report(is_found, testing::layout_law::place);
         constexpr std::size_t strictest = (std::max)({alignof(Values)...});
         constexpr std::size_t whole_row = ((sizeof(Values) + ...) + strictest - 1) / strictest * strictest;
         // An array each may begin and end at a cache line.
         const auto most = some.capacity() * whole_row + some.capacity() * whole_row / 100 + sizeof...(Values) * 128;
-        report(some.memory_bytes() <= most, layout_law::bytes);
-        report(some.capacity() >= count, layout_law::capacity);
+        report(some.memory_bytes() <= most, testing::layout_law::bytes);
+        report(some.capacity() >= count, testing::layout_law::capacity);
     }
 
 private:
@@ -115,12 +117,12 @@ private:
         const auto kept = random_.below((std::min)(count, rows_.size()) + 1);
         memory_.reallocate(count, kept);
         rows_.resize(kept);
-        report(memory_.capacity() >= count, layout_law::capacity);
-        report(holds(memory_, rows_), layout_law::kept);
+        report(memory_.capacity() >= count, testing::layout_law::capacity);
+        report(holds(memory_, rows_), testing::layout_law::kept);
         if (memory_.capacity() < count) return;
         rows_.resize(count);
         for (std::size_t i = kept; i < count; ++i) write(i);
-        report(holds(memory_, rows_), layout_law::apart);
+        report(holds(memory_, rows_), testing::layout_law::apart);
     }
     void write(std::size_t i) {
         const auto word = random_();
@@ -134,16 +136,16 @@ private:
         for (std::size_t i = 0; i < order.size(); ++i) rows_[i] = before[static_cast<std::size_t>(order[i])];
         memory_.gather(order.data(), order.size());
         rows_.resize(order.size());  // of the others nothing is said
-        report(holds(memory_, rows_), layout_law::gather);
+        report(holds(memory_, rows_), testing::layout_law::gather);
     }
     void copy() {
         auto other = memory_;
         const auto before = rows_;
         write(random_.below(rows_.size()));
-        report(holds(other, before), layout_law::copied);
+        report(holds(other, before), testing::layout_law::copied);
         memory_ = std::move(other);
         rows_ = before;
-        report(holds(memory_, rows_), layout_law::copied);
+        report(holds(memory_, rows_), testing::layout_law::copied);
     }
     [[nodiscard]] static bool holds(const memory& held, const std::vector<row>& rows) {
         bool equal = held.capacity() >= rows.size();
@@ -191,7 +193,9 @@ void check_layout_of(std::uint64_t seed, std::size_t steps, Check& check) {
     for (std::size_t k = 0; k < steps; ++k) examiner.step();
 }
 
-}  // namespace detail
+}  // namespace tsubu::detail
+
+namespace tsubu::testing {
 
 /// Does this layout keep the seven laws? Asked of one value, of values of one alignment, and of many.
 ///

@@ -49,6 +49,7 @@ public:
         }
         bytes_ += bytes;
     }
+    /// Counts memory as free again.
     void give_back(std::size_t bytes) noexcept { bytes_ -= bytes; }
 
 private:

@@ -130,7 +130,7 @@ private:
         Numbers poison = Numbers(real(0));  // 0, or not a number: a maximum passes over what is none
         [[gnu::always_inline]] void see(const Numbers& square) noexcept {
             most = lanewise::select(most < square, square, most);
-            poison = poison + (square - square);
+            poison = poison + (square - square);  // NOLINT(misc-redundant-expression)
         }
     };
 

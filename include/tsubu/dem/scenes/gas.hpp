@@ -36,7 +36,7 @@ struct gas_scene {
     double radius = 0.5;          ///< [m]
     double mass = 1;              ///< [kg]
     double origin = 0;            ///< the lower face of the box along each axis [m]
-    std::int64_t first_id = 1;
+    std::int64_t first_id = 1;    ///< that of the first particle; the others follow
     bool is_watched = true;  ///< whether a time step past the limit, and coordinates that freeze, are refused
 
     /// The distance of neighbours on the grid [m].

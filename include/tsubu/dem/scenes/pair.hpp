@@ -27,7 +27,7 @@ struct pair_scene {
     double radius = 0.5;  ///< [m]
     double mass = 1;      ///< [kg]
     double origin = 0;    ///< where the middle is [m]
-    std::int64_t first_id = 1;
+    std::int64_t first_id = 1;  ///< that of the first particle; the other follows
     bool is_watched = true;  ///< whether a time step past the limit is refused
 
     [[nodiscard]] auto box() const { return scene_box<simulation>({origin - 4 * radius}, {origin + 4 * radius}); }

@@ -28,7 +28,9 @@ template <std::size_t Count>
 /// Equal to the last bit, or both not a number.
 template <class Real>
 [[nodiscard]] bool is_same_number(Real a, Real b) {
-    return std::memcmp(&a, &b, sizeof(Real)) == 0 || (a != a && b != b);
+    const auto is_nan = [](Real x) { return x != x; };  // NOLINT(misc-redundant-expression)
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): 0 and -0 differ
+    return std::memcmp(&a, &b, sizeof(Real)) == 0 || (is_nan(a) && is_nan(b));
 }
 
 /// body(number) for each number that a contact consists of.

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+# cmake -DPORTFILE=... -P vcpkg_functions.cmake: runs a port with stand-ins for the functions of vcpkg that tsubu's port
+# calls, then looks at the package as vcpkg's checks after a build do. They refuse arguments that the real ones lack.
+cmake_minimum_required(VERSION 3.25)
+
+function(refuse_rest)
+    if(ARGN)
+        message(FATAL_ERROR "vcpkg has no such argument: ${ARGN}")
+    endif()
+endfunction()
+function(vcpkg_cmake_configure)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "SOURCE_PATH" "OPTIONS")
+    refuse_rest(${arg_UNPARSED_ARGUMENTS})
+    execute_process(COMMAND "${CMAKE_COMMAND}" -S "${arg_SOURCE_PATH}" -B "${CURRENT_BUILDTREES_DIR}/build"
+        "-DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" ${arg_OPTIONS}
+        COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+function(vcpkg_cmake_install)
+    refuse_rest(${ARGN})
+    execute_process(COMMAND "${CMAKE_COMMAND}" --install "${CURRENT_BUILDTREES_DIR}/build" COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+# Moves the package from CONFIG_PATH to share/<port>, which is also where it looks without that argument.
+function(vcpkg_cmake_config_fixup)
+    refuse_rest(${ARGN})
+    if(NOT EXISTS "${CURRENT_PACKAGES_DIR}/share/${PORT}/${PORT}-config.cmake")
+        message(FATAL_ERROR "no CMake package in share/${PORT}")
+    endif()
+endfunction()
+function(vcpkg_fixup_pkgconfig)
+    refuse_rest(${ARGN})
+    file(GLOB found "${CURRENT_PACKAGES_DIR}/share/pkgconfig/*.pc")
+    if(NOT found)
+        message(FATAL_ERROR "no .pc file in share/pkgconfig, the place of packages without libraries")
+    endif()
+endfunction()
+function(vcpkg_install_copyright)
+    cmake_parse_arguments(PARSE_ARGV 0 arg "" "COMMENT" "FILE_LIST")
+    refuse_rest(${arg_UNPARSED_ARGUMENTS})
+    file(COPY_FILE "${arg_FILE_LIST}" "${CURRENT_PACKAGES_DIR}/share/${PORT}/copyright")
+endfunction()
+
+include("${PORTFILE}")
+
+foreach(unwanted IN ITEMS share/cmake lib/cmake share/licenses debug lib bin)
+    if(EXISTS "${CURRENT_PACKAGES_DIR}/${unwanted}")
+        message(FATAL_ERROR "a package of headers has no ${unwanted}")
+    endif()
+endforeach()
+file(STRINGS "${CURRENT_PACKAGES_DIR}/share/${PORT}/copyright" licence LIMIT_COUNT 1)
+if(NOT licence MATCHES "MIT")
+    message(FATAL_ERROR "share/${PORT}/copyright begins with: ${licence}")
+endif()

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Is everything in the README that comes from elsewhere what it is there?
+
+    <!-- tests/readme/first.cpp -->                                     and below it a fence: the file, word for word
+    <!-- bench/report.py --markdown bench/results/store.json.gz -->     to <!-- end -->: what the command prints
+
+    python3 tests/readme/check.py             says what differs; exit code 1 if anything does
+    python3 tests/readme/check.py --write     writes it anew
+"""
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+README = ROOT / "README.md"
+COMMANDS = ("bench/report.py", "tests/compile_cost/compile_cost.py")  # no others are run
+FENCE = re.compile(r"<!-- (\S+) -->\n```(\w+)\n(.*?)```\n", re.S)
+PRINTED = re.compile(r"<!-- (\S+\.py .*?) -->\n(.*?)<!-- end -->\n", re.S)
+SPDX = re.compile(r"^(//|#) SPDX-License-Identifier: MIT\n")
+
+
+def of_file(name):
+    return SPDX.sub("", (ROOT / name).read_text(encoding="utf-8"))
+
+
+def of_command(command):
+    program, *arguments = shlex.split(command)
+    if program not in COMMANDS:
+        raise ValueError(f"{program} is none of {', '.join(COMMANDS)}")
+    done = subprocess.run([sys.executable, program, *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ValueError(done.stderr.strip())
+    return f"\n{done.stdout.strip()}\n\n"  # Markdown wants empty lines around tables
+
+
+def faults_outside(text, shown):
+    """Code that comes from nowhere, and programs that are not shown."""
+    for fence in re.finditer(r"^```(cpp|cmake|make)$", text, re.M):
+        if not re.search(r"<!-- \S+ -->\n$", text[:fence.start()]):
+            yield f"line {text.count(chr(10), 0, fence.start()) + 1}: no line <!-- FILE --> directly above the code"
+    for program in sorted((ROOT / "tests/readme").glob("*.cpp")):
+        name = str(program.relative_to(ROOT))
+        if name not in shown:
+            yield f"{name} is not shown in the README"
+
+
+def main():
+    write = sys.argv[1:] == ["--write"]
+    if sys.argv[1:] and not write:
+        sys.exit(__doc__)
+    text = README.read_text(encoding="utf-8")
+    faults, shown, checked = [], [], 0
+
+    def renewed(place, source, make, old, form):
+        nonlocal checked
+        checked += 1
+        try:
+            new = make(source)
+        except (OSError, ValueError) as fault:
+            faults.append(f"{source}: {fault}")
+            return place
+        if new != old and not write:
+            faults.append(f"{source}: the README differs; python3 tests/readme/check.py --write")
+        return form(new)
+
+    def renew_fence(match):
+        shown.append(match[1])
+        return renewed(match[0], match[1], of_file, match[3],
+                       lambda new: f"<!-- {match[1]} -->\n```{match[2]}\n{new}```\n")
+
+    def renew_printed(match):
+        return renewed(match[0], match[1], of_command, match[2], lambda new: f"<!-- {match[1]} -->\n{new}<!-- end -->\n")
+
+    new_text = PRINTED.sub(renew_printed, FENCE.sub(renew_fence, text))
+    faults += faults_outside(text, shown)
+    if write and new_text != text:
+        README.write_text(new_text, encoding="utf-8")
+    for fault in faults:
+        print(f"README.md: {fault}", file=sys.stderr)
+    print(f"{checked} pieces of the README compared with where they come from")
+    return 1 if faults or checked == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -325,11 +325,16 @@ def spread_text(times):
     return f"{figure_of(statistics.median(times))} <small>({figure_of(min(times))}–{figure_of(max(times))})</small>"
 
 
-def ratio_cell(ratio):
-    if ratio is None:
+def figure_cell(value, unit=""):
+    """A Spread with its limits; empty if there is none."""
+    if not value:
         return "<td></td>"
-    low, high = figure_of(ratio.low), figure_of(ratio.high)
-    return f'<td class="figure">{figure_of(ratio)}x <small>({low}–{high})</small></td>'
+    low, high = figure_of(value.low), figure_of(value.high)
+    return f'<td class="figure">{figure_of(value)}{unit} <small>({low}–{high})</small></td>'
+
+
+def ratio_cell(ratio):
+    return figure_cell(ratio, "x")
 
 
 def folded(summary, content):

@@ -9,6 +9,20 @@ REQUIRED_CONTEXT = ("machine", "compiler", "flags", "commit", "instruction_set",
 ROOMS = ("id", "domain", "store", "io", "comm", "dem")
 
 
+class RoomResults:
+    """What is known of a room: rows of one file after the other, of which the first counts where two have the same.
+
+    A room adds rows with add(row), and tells with measured() in which dictionaries the repetitions of its cells are."""
+
+    def __init__(self):
+        self.contexts = []
+        self.already = set()  # cells of the files before
+
+    def begin_file(self, context):
+        self.contexts.append(context)
+        self.already = {cell for cells in self.measured() for cell in cells}
+
+
 def room_of(rows):
     """Rows begin with the name of their room, but for those of the id maps, which begin with a pattern of ids."""
     return next((name for name in ROOMS if any(row["name"].startswith(name + "/") for row in rows)), "id")

@@ -2,8 +2,9 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle,
-                   power, quotient, ratio_cell, spread_text, svg_of, table)
+from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle, power,
+                   quotient, ratio_cell, spread_text, svg_of, table)
+from .reading import RoomResults
 
 # name: (label, colour, marker)
 LAYOUTS = {
@@ -36,11 +37,11 @@ CLAIM_NOTE = ("A store and its hand-written twin take turns, and each repetition
               "store the limits are those of the median of these ratios, at 93 % or more.")
 
 
-class Results:
+class Results(RoomResults):
     """Pairs by (layout, operation, N), gathers by (layout, order, N), orders by (curve, N), growth by (policy, N)."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.pairs = defaultdict(list)    # (ns of the store, ns by hand, their ratio), one per repetition
         self.bytes = {}                   # (layout, N): (bytes per place, bytes per particle)
         self.carried = defaultdict(list)  # (layout, operation, bytes per particle, N): ns
@@ -49,10 +50,8 @@ class Results:
         self.copies = {}                  # elements copied, reallocations
         self.appends = defaultdict(list)  # ns per append
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = {key for cells in (self.pairs, self.carried, self.gathers, self.orders, self.appends)
-                        for key in cells}
+    def measured(self):
+        return self.pairs, self.carried, self.gathers, self.orders, self.appends
 
     def add(self, row):
         _, kind, *words, last = row["name"].split("/")
@@ -509,6 +508,18 @@ def escaped(text):
 # Tables for the README
 
 
+def markdown_carried(results):
+    count = max(n for *_, n in results.carried)
+    sizes = sorted({size for _, _, size, n in results.carried if n == count})
+    lines = [f"ns per particle, {power(count)} of them, by the bytes that each carries.", "",
+             markdown_row(["operation", "layout", *(f"{size} bytes" for size in sizes)]), "|" + "---|" * (2 + len(sizes))]
+    for operation, name in (("update", "update"), ("permute", "sort"), ("pack", "pack, per packed particle")):
+        for layout in LAYOUTS:
+            times = [results.carried_time(layout, operation, size, count) for size in sizes]
+            lines.append(markdown_row([name, f"`{label(layout)}`", *(figure_of(t) if t else "" for t in times)]))
+    return lines
+
+
 def markdown(results):
     context = results.contexts[0]
     counts = results.counts()
@@ -524,6 +535,8 @@ def markdown(results):
                          if (t := results.time(layout, operation, n)) else "" for n in counts]
                 lines.append(markdown_row([title, f"`{label(layout)}`", *cells]))
         lines += [""] + [f"- {sentence}" for sentence in choice_sentences(results)]
+    if results.carried:
+        lines += [""] + markdown_carried(results)
     if results.gathers:
         counts = results.sorted_counts()
         lines += ["", "ns per particle of a gather from 12 neighbours, by the order of the particles.", "",

@@ -2,10 +2,9 @@
 """Chart 4: what precision costs. Error over cost, a curve per integrator, law and coordinates."""
 import math
 
-from ..dem import (FLOORS, LAWS, TOLERANCE, cheapest, cost_cell, cost_table, label_of, log_ticks, order_table,
-                   per_step_of)
+from ..dem import FLOORS, LAWS, TOLERANCE, cheapest, cost_table, label_of, log_ticks, order_table, per_step_of
 from ..drawing import LOW_BOX, Look, label_ends, legend, new_panel, panel, panels, tables
-from ..page import INK, apart, figure_of, quotient, scaled, short_power, table
+from ..page import INK, apart, figure_cell, figure_of, quotient, scaled, short_power, table
 
 ROOM = "dem"
 TITLE = "What does precision cost?"
@@ -178,7 +177,7 @@ def sentence(results):
 def tolerance_table(results):
     present = scenes(results)
     costs = [scene.costs(results, scene.tolerance) for scene in present]
-    rows = [[look.label] + [cost_cell(c.get(series)) if series in c else "<td>–</td>" for c in costs]
+    rows = [[look.label] + [figure_cell(c.get(series)) if series in c else "<td>–</td>" for c in costs]
             for series, look in LOOKS.items() if any(series in c for c in costs)]
     head = ["µs per simulated second and particle"]
     return table(head + [f"{s.name}, {short_power(s.tolerance)}" for s in present], rows)

@@ -54,6 +54,8 @@ def warnings(figures):
     """Figures of several runs on one page; changes that no commit holds."""
     contexts = [context for _, context in figures.contexts]
     texts = []
+    if any(c.get("extent") == "quick" for c in contexts):
+        texts.append("A quick run: fewer sizes, time steps and repetitions than bench/run has without --quick.")
     different = [name for key, name in SAME if len(values_of(contexts, key)) > 1]
     if different:
         runs = [f"{name}: {c['commit']} of {c['date'][:10]}" + (f" ({c['extent']})" if c.get("extent") else "")
@@ -80,7 +82,7 @@ def missing_rivals(figures):
                 found.append((what, "charts 1 and 2", f"not found when this was built; Debian: {package}"))
     scenes = figures.results.get("dem")
     if scenes:
-        found += [(what, "appendix: scenes", why) for what, why in scenes.missing()]
+        found += [(what, "the appendix on scenes", why) for what, why in scenes.missing()]
     return found
 
 
@@ -90,7 +92,7 @@ def missing_rooms(figures, rooms):
 
 
 def missing(figures, rooms):
-    parts = [f"{what} ({where}: {why})" for what, where, why in missing_rivals(figures)]
+    parts = [f"{what} (would stand in {where}; {why})" for what, where, why in missing_rivals(figures)]
     parts += [f"the room {name} ({remedy})" for name, remedy in missing_rooms(figures, rooms)]
     if not parts:
         return "<p>Nothing is missing: Boost, Abseil, LAMMPS and MPI were found.</p>" if "id" in figures.results else ""

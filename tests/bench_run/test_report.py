@@ -165,11 +165,13 @@ class Front(Folder):
         self.assertIn("Boost", text)
         self.assertIn("Abseil", text)
         self.assertIn("the room dem", text)
-        self.assertEqual(front.warnings(figures), "")
+        self.assertIn("A quick run", front.warnings(figures))
+        whole = Figures([self.file("id.json", map_rows({"flat": {1: 1}}), extent="standard")])
+        self.assertEqual(front.warnings(whole), "")
 
     def test_lammps_is_missing_by_its_reason(self):
         figures = Figures([self.file("dem.json", [{"name": "dem/missing/LAMMPS/no lmp here/-"}])])
-        self.assertIn("LAMMPS (appendix: scenes: no lmp here)", front.missing(figures, ROOMS))
+        self.assertIn("LAMMPS (would stand in the appendix on scenes; no lmp here)", front.missing(figures, ROOMS))
 
     def test_several_runs_are_told(self):
         figures = Figures([self.file("id.json", map_rows({"flat": {1: 1}})),

@@ -306,7 +306,7 @@ svg text { font-family: system-ui, sans-serif !important; }
           font-size: 13px; max-width: none; }
 .legend li { display: flex; align-items: center; gap: .4rem; } .legend svg { width: 40px !important; min-width: 40px; }
 details.appendix { border-top: 1px solid var(--rule); padding: .5rem 0; }
-details.appendix > summary { font-size: 1.15rem; font-weight: 600; }
+details.appendix h2 { font-size: 1.2rem; } details.appendix > summary { font-size: 1.15rem; font-weight: 600; }
 @media (max-width: 600px) { body { padding: 0 .7rem; margin: 1rem auto; } h1 { font-size: 1.35rem; } }
 @media print { details.appendix { display: none; } }
 """
@@ -360,11 +360,14 @@ def claim_section(claims, note):
         else:
             *cells, mark = claim.cells()
             rows.append([*cells, f'<td class="{verdict}">{mark}</td>' if verdict in (HOLDS, FAILS, NOISY) else mark])
+    failing = [row for row, verdict in zip(rows, (v for v in verdicts if v != NOT_MEASURED)) if verdict == FAILS]
     held, failed, noisy = (verdicts.count(verdict) for verdict in (HOLDS, FAILS, NOISY))
     return (f'<h2 id="claims">What must hold</h2><p>{held} of {held + failed} claims that this run can judge hold' +
             (f"; too noisy to tell: {noisy} more, whose target lies between the lowest and the highest ratio that the "
              "repetitions allow, which stand in brackets" if noisy else "") +
-            f". A claim holds where it holds at the worst of its points. {note}</p>" + table(CLAIM_HEAD, rows) +
+            f". A claim holds where it holds at the worst of its points. {note}</p>" +
+            (f"<p>Those that do not:</p>{table(CLAIM_HEAD, failing)}" if failing else "") +
+            folded(f"All claims that were measured: {len(rows)}", table(CLAIM_HEAD, rows)) +
             (folded(f"Claims not measured in this run: {len(unmeasured)}", table(CLAIM_HEAD[:2], unmeasured))
              if unmeasured else ""))
 

@@ -3,6 +3,7 @@
 """The rule of noise, the sentences under the charts and the comparison of two runs, on figures that are made up."""
 import contextlib
 import gzip
+import importlib.util
 import io
 import json
 import os
@@ -156,6 +157,31 @@ class Folder(unittest.TestCase):
         with opened as out:
             json.dump({"context": {**CONTEXT, **context}, "benchmarks": rows}, out)
         return path
+
+
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no matplotlib in this python")
+class Drawing(Folder):
+    def test_a_page_has_what_there_is_and_names_the_rest(self):
+        maps = self.file("id.json", map_rows({"dense": {1: 1, 8: 2}, "flat": {1: 3, 8: 3, 64: 4},
+                                              "adaptive": {1: 1, 8: 2}}))
+        out = os.path.join(self.folder.name, "page.html")
+        sys.argv = ["report.py", maps, "-o", out]
+        self.assertEqual(main("draws"), 0)
+        with open(out, encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual(text.count('id="chart'), 5)
+        self.assertEqual(text.count("<figure><h4>"), 4)  # of chart 1; the others have no figures here
+        self.assertIn("Not in these figures: <code>bench/run --only dem</code>", text)
+        self.assertIn("Not measured, since not found: Boost 1.81 or later and Abseil", text)
+        self.assertNotIn("src=", text)  # nothing from elsewhere
+        for stand_in, *_ in page.PALETTE.values():
+            self.assertNotIn(stand_in, text)  # all colours are those of the page, light or dark
+
+    def test_labels_are_moved_apart_in_their_order(self):
+        from report.drawing import spread_out
+        moved = spread_out([.5, .51, .52, .9], .1)
+        self.assertEqual(moved, sorted(moved))
+        self.assertTrue(all(b - a > .099 for a, b in zip(moved, moved[1:])), moved)
 
 
 class Front(Folder):

@@ -27,10 +27,9 @@
 #include "rivals/hand_ranks.hpp"
 #include "support/command_line.hpp"
 #include "support/counting_transport.hpp"
-#include "support/progress.hpp"
+#include "support/groups.hpp"
 #include "support/rank_turns.hpp"
 #include "support/row_reporter.hpp"
-#include "support/run_context.hpp"
 
 #include <tsubu/comm/halo.hpp>
 #include <tsubu/comm/local_transport.hpp>
@@ -48,10 +47,9 @@
 #include <cstddef>     // std::ptrdiff_t, std::size_t
 #include <cstdint>     // std::int64_t, std::uint64_t
 #include <cstdio>      // std::fprintf
-#include <cstdlib>     // EXIT_SUCCESS
+#include <cstdlib>     // EXIT_FAILURE
 #include <functional>  // std::function
 #include <memory>      // std::make_shared
-#include <optional>    // std::optional
 #include <span>        // std::span
 #include <stdexcept>   // std::runtime_error
 #include <string>      // std::string
@@ -101,7 +99,7 @@ Store filled(const bricks_type& bricks, tsubu::rank_t rank, std::size_t count) {
 
 struct world {
     tsubu::mpi_transport on{MPI_COMM_WORLD};
-    std::optional<row_reporter> report{};  // of rank 0
+    row_reporter* report = nullptr;  // that of rank 0 writes
     std::size_t rounds = 0;
     double seconds = 0;
     bricks_type row = cubes({on.ranks(), 1, 1}, {true, false, false});
@@ -111,7 +109,7 @@ struct world {
     }
     void measure(const std::vector<collective_contender>& all,
                  const std::vector<std::pair<std::string, double>>& fields) {
-        rank_turns(on, report, rounds, seconds).measure(all, fields);
+        rank_turns(on, *report, rounds, seconds).measure(all, fields);
     }
     [[nodiscard]] int next() const { return static_cast<int>((on.rank() + 1) % on.ranks()); }
     [[nodiscard]] int before() const { return static_cast<int>((on.rank() + on.ranks() - 1) % on.ranks()); }
@@ -204,7 +202,7 @@ void run_migrate(world& w, std::size_t percent) {
     expect(done.sent == (w.on.ranks() == 1 ? 0 : leavers) && g->size() == particles_of_rank,
            "migrate has sent another number of particles");
     expect(sums_of(*g, w) == sums, "migrate has changed, lost or misplaced particles");
-    if (w.report && leavers != 0)
+    if (leavers != 0)
         w.report->counted(w.named("moved", what, "tsubu"), {{"bytes", real(counted.sent().bytes)},
                                                             {"leaver_bytes", real(64 * leavers)},
                                                             {"messages", real(counted.sent().messages)}});
@@ -370,7 +368,7 @@ traffic migrate_traffic(const bricks_type& bricks) {
     });
 }
 void run_model(world& w, const std::array<std::size_t, 3>& grid) {
-    if (w.report) {
+    if (w.on.rank() == 0) {
         const auto bricks = cubes(grid, {true, true, true});
         const auto add = [&](const std::string& what, const traffic& sum, std::size_t steps) {
             const auto share = 1.0 / real(bricks.ranks() * steps);
@@ -390,23 +388,25 @@ void run_model(world& w, const std::array<std::size_t, 3>& grid) {
 // ---------------------------------------------------------------------------------------------------------------
 // The plan
 
-struct group {
-    std::string name;
-    std::function<void(world&)> run;
-};
-
-std::vector<group> plan() {
+std::vector<group> plan(world& w) {
     std::vector<group> groups;
+    const auto add = [&](const std::string& name, double seconds, std::function<void()> body) {
+        groups.push_back({"comm/" + name, seconds, [&w, body = std::move(body)](row_reporter& report) {
+                              w.report = &report;
+                              body();
+                          }});
+    };
+    const double turns = static_cast<double>(w.rounds) * w.seconds;
     for (const std::size_t percent : {0U, 1U, 10U, 50U})
-        groups.push_back({"comm/migrate/" + std::to_string(percent), [=](world& w) { run_migrate(w, percent); }});
+        add("migrate/" + std::to_string(percent), 0.3 + 2 * turns, [&w, percent] { run_migrate(w, percent); });
     const auto halos = [&](double cutoff, const std::string& size) {
-        groups.push_back({"comm/halo/" + size, [=](world& w) { run_halo(w, cutoff, size); }});
+        add("halo/" + size, 1 + 8 * turns, [&w, cutoff, size] { run_halo(w, cutoff, size); });
     };
     halos(0.25, "50000");
     halos(0.002, "400");
     std::array<std::size_t, 3> grid{1, 1, 1};
     for (std::size_t ranks = 1, axis = 0; ranks <= 64; ranks *= 2, axis = (axis + 1) % 3) {
-        groups.push_back({"comm/model/ranks:" + std::to_string(ranks), [=](world& w) { run_model(w, grid); }});
+        add("model/ranks:" + std::to_string(ranks), 0.02 * real(ranks), [&w, grid] { run_model(w, grid); });
         grid[axis] *= 2;
     }
     return groups;
@@ -428,36 +428,17 @@ std::string mpi_version() {
 }
 
 int run(const options& chosen) {
-    auto groups = plan();
-    std::erase_if(groups, [&](const group& g) { return g.name.find(chosen.only) == std::string::npos; });
     world w;
-    const bool speaks = w.on.rank() == 0;
-    if (groups.empty()) {
-        if (speaks) std::fprintf(stderr, "bench_comm: no group has \"%s\" in its name\n", chosen.only.c_str());
-        return 2;
-    }
     constexpr std::size_t rounds[] = {9, 15, 31};
     constexpr double seconds[] = {0.01, 0.05, 0.1};
     w.rounds = rounds[static_cast<int>(chosen.how_much)];
     w.seconds = seconds[static_cast<int>(chosen.how_much)];
-    if (speaks) {
-        auto context = run_context();
-        context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
-        context.emplace_back("mpi", mpi_version());
-        context.emplace_back("ranks", std::to_string(w.on.ranks()));
-        context.emplace_back("load", line_of("/proc/loadavg"));
-        w.report.emplace(chosen.out, context);
-    }
-    progress shown(real(groups.size()));
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        if (speaks) shown.begin(k + 1, groups.size(), groups[k].name);
-        groups[k].run(w);
-        shown.end(1);
-    }
-    if (!speaks) return EXIT_SUCCESS;
-    w.report->close();
-    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
-    return EXIT_SUCCESS;
+    const team ranks = {w.on.rank() == 0, [](std::vector<char>& is_done) {
+                            MPI_Bcast(is_done.data(), static_cast<int>(is_done.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+                        }};
+    return run_groups("bench_comm", plan(w), chosen,
+                      {{"mpi", mpi_version()}, {"ranks", std::to_string(w.on.ranks())},
+                       {"load", line_of("/proc/loadavg")}}, ranks);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 ///     dem/missing/WHAT/WHY/-                 what could not be measured
 
 #include "dem/plan.hpp"
+#include "support/command_line.hpp"
 
 namespace bench {
 namespace {
@@ -38,8 +39,15 @@ int run(const options& chosen) {
     std::vector<group> groups;
     add_impacts(groups, chosen.how_much);
     add_limits(groups, chosen.how_much);
+#if defined(TSUBU_BENCH_WITHOUT_PRICES)
+    groups.push_back({"dem/missing", 0.01, [](row_reporter& report) {
+                          report.counted("dem/missing/the price of models, LAMMPS and two ranks/left out by --quick/-",
+                                         {});
+                      }});
+#else
     add_beds(groups, chosen.how_much);
     add_rivals(groups, chosen.how_much);
+#endif
     return run_groups("bench_dem", groups, chosen);
 }
 

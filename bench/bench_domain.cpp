@@ -10,7 +10,7 @@
 #include "support/command_line.hpp"
 #include "support/groups.hpp"
 #include "support/plain_read.hpp"
-#include "support/row_reporter.hpp"
+#include "support/registered.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/domain/brick_decomposition.hpp>
@@ -254,8 +254,7 @@ void run_times(std::size_t count, bool only_owns, row_reporter& report) {
         add_scalar<coarse_lattice>(count, false);
         add_scalar<fine_lattice>(count, false);
     }
-    benchmark::RunSpecifiedBenchmarks(&report);
-    benchmark::ClearRegisteredBenchmarks();
+    run_registered(report);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -480,15 +479,17 @@ std::vector<group> plan(extent how_much) {
     for (const std::size_t count : {10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
         if (how_much == extent::quick && count > 1'000'000) continue;
         const bool only_owns = how_much != extent::full && count > 1'000'000;
-        const double seconds = how_much == extent::quick ? 4 : 12;
+        const double seconds = how_much == extent::quick ? 1.3 : 5;
         groups.push_back({"domain/time/N:" + std::to_string(count),
-                          only_owns ? 2 : seconds + static_cast<double>(count) / 4e5,
+                          only_owns ? 2 : seconds + static_cast<double>(count) / 1e6,
                           [=](row_reporter& report) { run_times(count, only_owns, report); }});
     }
-    groups.push_back({"domain/wrap_error/double", 10, run_drift<double>});
-    groups.push_back({"domain/wrap_error/float", 8, run_drift<float>});
-    groups.push_back({"domain/wrap_error/lattice32", .3, run_drift<coarse_lattice>});
-    groups.push_back({"domain/wrap_error/lattice64", .3, run_drift<fine_lattice>});
+    if (how_much != extent::quick) {  // 5e8 wraps take a while
+        groups.push_back({"domain/wrap_error/double", 8, run_drift<double>});
+        groups.push_back({"domain/wrap_error/float", 6, run_drift<float>});
+        groups.push_back({"domain/wrap_error/lattice32", .3, run_drift<coarse_lattice>});
+        groups.push_back({"domain/wrap_error/lattice64", .3, run_drift<fine_lattice>});
+    }
     groups.push_back({"domain/partition/double", .5, run_partition<double>});
     groups.push_back({"domain/partition/float", .3, run_partition<float>});
     return groups;
@@ -499,7 +500,7 @@ std::vector<group> plan(extent how_much) {
 
 constexpr const char* usage =
     "bench_domain [--quick | --full] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
-    "  --quick     N = 1e4, 1e5, 1e6: less than a minute\n"
+    "  --quick     N = 1e4, 1e5, 1e6, without wraps: some seconds\n"
     "  (neither)   longer repetitions, and owns on 1e7 points of double: about 2 minutes\n"
     "  --full      everything for 1e7 points as well: 6 GB of memory\n"
     "  --only TEXT only groups whose name contains it, such as domain/time/N:100000\n"

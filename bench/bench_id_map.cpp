@@ -10,9 +10,8 @@
 #include "rivals/std_unordered_map.hpp"
 #include "support/command_line.hpp"
 #include "support/contender.hpp"
-#include "support/progress.hpp"
-#include "support/row_reporter.hpp"
-#include "support/run_context.hpp"
+#include "support/groups.hpp"
+#include "support/registered.hpp"
 #if defined(TSUBU_RIVAL_BOOST)
 #include "rivals/boost_flat_map.hpp"
 #endif
@@ -28,15 +27,14 @@
 #include <tsubu/id/paged_storage.hpp>
 
 #include <algorithm>    // std::minmax_element
+#include <chrono>       // std::chrono::steady_clock
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int64_t, std::uint32_t, std::uint64_t
-#include <cstdio>       // std::fprintf
-#include <cstdlib>      // EXIT_SUCCESS
 #include <cstring>      // std::strcmp
 #include <memory>       // std::unique_ptr
 #include <stdexcept>    // std::runtime_error
 #include <string>       // std::string
-#include <string_view>  // std::string_view
+#include <utility>      // std::move
 #include <vector>       // std::vector
 
 namespace bench {
@@ -121,18 +119,19 @@ struct operation {
     pass run;
     bool per_particle;  ///< the time is divided by the particles; else by the questions
     bool in_patterns;   ///< measured for every pattern, not for the sweep of T/N alone
+    bool is_quick;      ///< part of the quick run
     bool batch = false;
 };
 
 constexpr operation operations[] = {
-    {"rebuild", rebuild, true, true},
-    {"rebuild_without_links", rebuild_without_links, true, false},
-    {"update", update, true, false},
-    {"find_single", find_single, false, true},
-    {"find_dependent", find_dependent, false, false},
-    {"find_hit", find_batch<&workload::hit>, false, true, true},
-    {"find_half", find_batch<&workload::half>, false, true, true},
-    {"find_near", find_batch<&workload::near>, false, false, true},
+    {"rebuild", rebuild, true, true, true},
+    {"rebuild_without_links", rebuild_without_links, true, false, false},
+    {"update", update, true, false, false},
+    {"find_single", find_single, false, true, true},
+    {"find_dependent", find_dependent, false, false, false},
+    {"find_hit", find_batch<&workload::hit>, false, true, true, true},
+    {"find_half", find_batch<&workload::half>, false, true, false, true},
+    {"find_near", find_batch<&workload::near>, false, false, false, true},
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -141,28 +140,38 @@ constexpr operation operations[] = {
 constexpr std::size_t sizes[] = {10'000, 100'000, 1'000'000, 10'000'000};
 constexpr std::uint64_t ratios[] = {1, 2, 8, 64, 1024, 1'000'000};
 
-struct group {
+struct id_group {
     const pattern* made_by;  ///< null: the ids of a file
     std::size_t owned;
     std::uint64_t ratio;
     bool sweep;  ///< all operations
+    bool quick = false;
 
     [[nodiscard]] std::string name() const {
         return std::string(made_by != nullptr ? made_by->name : "file") + "/N:" + std::to_string(owned) +
                "/ratio:" + std::to_string(ratio);
     }
-    // In microseconds, roughly: shares of the time that is left.
-    [[nodiscard]] double weight() const { return (sweep ? 2.0 : 1.0) * (1.5e5 + static_cast<double>(owned)); }
+    /// Roughly, as measured.
+    [[nodiscard]] double seconds() const {
+        const double millions = static_cast<double>(owned) * 1e-6;
+        if (quick) return 1.7 + 8 * millions;
+        return sweep ? 18 + 25 * millions : 9.5 + 5 * millions;
+    }
 };
 
-std::vector<group> plan(extent how_much) {
-    std::vector<group> groups;
+/// Where dense and flat meet lies between 8 and 64 in small sizes, and before 8 in large ones.
+bool is_in_quick_sweep(std::size_t owned, std::uint64_t ratio) {
+    return ratio == 1 || ratio == 8 || ratio == 1024 || (ratio == 64 && owned <= 100'000);
+}
+
+std::vector<id_group> plan(extent how_much) {
+    std::vector<id_group> groups;
     const bool quick = how_much == extent::quick;
     const bool full = how_much == extent::full;
     for (const auto owned : sizes)
         for (const auto ratio : ratios)
-            if ((full || owned <= 1'000'000) && (!quick || ratio == 1 || ratio == 8 || ratio == 1024))
-                groups.push_back({&patterns[0], owned, ratio, true});
+            if ((full || owned <= 1'000'000) && (!quick || is_in_quick_sweep(owned, ratio)))
+                groups.push_back({&patterns[0], owned, ratio, true, quick});
     for (const auto& p : patterns) {
         const bool tested_sparse = p.make == block || p.make == strided || p.make == clustered;
         for (const auto owned : sizes) {
@@ -170,7 +179,7 @@ std::vector<group> plan(extent how_much) {
             if (!full && !p.quick && owned == 1'000'000) continue;
             if (owned == 10'000 && p.make != bucket_multiples && p.make != stride_of<32771>) continue;
             if (owned == 10'000'000 && (!full || !tested_sparse)) continue;
-            if (p.make != uniform) groups.push_back({&p, owned, 8, false});
+            if (p.make != uniform) groups.push_back({&p, owned, 8, false, quick});
             if (tested_sparse && !quick && owned < 10'000'000) groups.push_back({&p, owned, 1024, false});
             if (tested_sparse && full && owned < 10'000'000) groups.push_back({&p, owned, 1'000'000, false});
         }
@@ -265,25 +274,24 @@ void run_operation(benchmark::State& state, const measured_series& subject, cons
         static_cast<double>(subject.map->memory_bytes()) / static_cast<double>(work.ids.size());
 }
 
-bool applies(const operation& op, const measured_series& subject, const group& to) {
-    if (!to.sweep && !op.in_patterns) return false;
+bool applies(const operation& op, const measured_series& subject, const id_group& to) {
+    if ((!to.sweep && !op.in_patterns) || (to.quick && !op.is_quick)) return false;
     if (subject.which->batches_only && !op.batch) return false;
     if (op.run == find_batch<&workload::half> && subject.which->make == table_of<plain_array, id_t>) return false;
     return op.run != update || subject.map->can_update();
 }
 
-void run_group(const group& which, const id_set& set, row_reporter& report) {
+void run_group(const id_group& which, const id_set& set, row_reporter& report) {
     const auto work = make_workload(set, which.owned, 1);
     const auto name = which.name();
     const auto all = make_all(work, name, report);
     compare_answers(all, work, name);
-    benchmark::ClearRegisteredBenchmarks();
     for (const auto& subject : all)
         for (const auto& op : operations)
             if (applies(op, subject, which))
                 benchmark::RegisterBenchmark((name + "/" + subject.which->name + "/" + op.name).c_str(),
                                              [&](benchmark::State& state) { run_operation(state, subject, op, work); });
-    benchmark::RunSpecifiedBenchmarks(&report);
+    run_registered(report);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -291,7 +299,7 @@ void run_group(const group& which, const id_set& set, row_reporter& report) {
 
 constexpr const char* usage =
     "bench_id_map [--quick | --full] [--ids FILE] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
-    "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 1024; the main patterns at 1e5: about 3 minutes\n"
+    "  --quick     N = 1e4, 1e5, 1e6; T/N = 1, 8, 64, 1024; the main patterns at 1e5; three operations: a minute\n"
     "  (neither)   all T/N, all patterns at 1e5, the main ones at 1e6: about 15 minutes\n"
     "  --full      N = 1e7 as well: more than an hour, 12 GB of memory\n"
     "  --ids FILE  also the ids of a LAMMPS data or dump file\n"
@@ -299,39 +307,26 @@ constexpr const char* usage =
     "TSUBU_INSTRUCTION_SET=portable|avx2|avx512 limits what the maps may use.\n";
 
 int run(const options& chosen) {
+    std::vector<id_group> planned;
     std::vector<group> groups;
     id_set from_file;
+    run_conditions particular;
     if (!chosen.ids_file.empty()) {
-        group of_file{nullptr, 0, 0, true};
+        id_group of_file{nullptr, 0, 0, true};
         from_file = from_lammps(chosen.ids_file, of_file.owned);
         const auto [lowest, highest] = std::minmax_element(from_file.ids.begin(), from_file.ids.end());
         const auto count = from_file.ids.size();
         of_file.ratio = (static_cast<std::uint64_t>(*highest - *lowest) + count / 2) / count;
-        groups.push_back(of_file);
+        planned.push_back(of_file);
+        particular.emplace_back("ids_file", chosen.ids_file);
     }
-    double all = 0;
-    for (const auto& planned : plan(chosen.how_much)) groups.push_back(planned);
-    std::erase_if(groups, [&](const group& g) { return g.name().find(chosen.only) == std::string::npos; });
-    for (const auto& g : groups) all += g.weight();
-    if (groups.empty()) {
-        std::fprintf(stderr, "bench_id_map: no group has \"%s\" in its name\n", chosen.only.c_str());
-        return 2;
-    }
-
-    auto context = run_context();
-    context.emplace_back("extent", extent_names[static_cast<int>(chosen.how_much)]);
-    if (!chosen.ids_file.empty()) context.emplace_back("ids_file", chosen.ids_file);
-    row_reporter report(chosen.out, context);
-    progress shown(all);
-    for (std::size_t k = 0; k < groups.size(); ++k) {
-        const auto& g = groups[k];
-        shown.begin(k + 1, groups.size(), g.name());
-        run_group(g, g.made_by != nullptr ? g.made_by->make(g.owned, g.ratio, 1) : from_file, report);
-        shown.end(g.weight());
-    }
-    report.close();
-    std::fprintf(stderr, "%s: written after %.0f s\n", chosen.out.c_str(), shown.seconds());
-    return EXIT_SUCCESS;
+    for (const auto& one : plan(chosen.how_much)) planned.push_back(one);
+    for (const auto& one : planned)
+        groups.push_back({one.name(), one.seconds(), [one, &from_file](row_reporter& report) {
+                              const bool is_made = one.made_by != nullptr;
+                              run_group(one, is_made ? one.made_by->make(one.owned, one.ratio, 1) : from_file, report);
+                          }});
+    return run_groups("bench_id_map", std::move(groups), chosen, particular);
 }
 
 }  // namespace

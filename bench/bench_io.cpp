@@ -23,7 +23,7 @@
 
 #include "support/command_line.hpp"
 #include "support/groups.hpp"
-#include "support/row_reporter.hpp"
+#include "support/registered.hpp"
 
 #include <tsubu/core/random.hpp>
 #include <tsubu/io/lammps_data_file.hpp>
@@ -372,11 +372,6 @@ void measure(const std::string& name, std::size_t count, std::size_t bytes, Pass
         state.counters["bytes"] = static_cast<double>(bytes);
     });
 }
-void run_registered(row_reporter& report) {
-    benchmark::RunSpecifiedBenchmarks(&report);
-    benchmark::ClearRegisteredBenchmarks();
-}
-
 template <class Fields>
 void run_read(const std::string& name, tsubu::atom_style style, form how, bool in_order, std::size_t count,
               row_reporter& report) {
@@ -526,8 +521,8 @@ std::vector<group> plan(extent how_much) {
         add("read/full_lammps", 12,
             [=](auto& r) { run_read<full_fields>("full_lammps", atom_style::full, form::lammps, true, n, r); });
         add("write/full", 18, [=](auto& r) { run_write(n, r); });
-        add("restart", 6, [=](auto& r) { run_restart(n, r); });
-        add("vtk_write", 3, [=](auto& r) { run_vtk(n, r); });
+        add("restart", 3, [=](auto& r) { run_restart(n, r); });
+        add("vtk_write", 1, [=](auto& r) { run_vtk(n, r); });
     }
     return groups;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// What a layout costs: operations on a store of each layout, beside the same by hand on arrays of that layout; what a
-/// sort along a curve saves; what growth copies.
+/// What a layout costs: operations on a store of each layout, beside the same by hand on arrays of that layout, and as
+/// particles carry more; what a sort along a curve saves; what growth copies.
 ///
 /// A store and its hand-written twin are built in random order and take turns, so that whatever slows the machine slows
 /// both: a row holds the medians of both over the turns of one repetition, and that of their ratio. Repetitions of
@@ -9,7 +9,8 @@
 
 #include "support/command_line.hpp"
 #include "support/groups.hpp"
-#include "support/row_reporter.hpp"
+#include "support/registered.hpp"
+#include "support/timed_turns.hpp"
 
 #include <tsubu/core/buffer.hpp>
 #include <tsubu/core/random.hpp>
@@ -60,6 +61,13 @@ using carried = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>,
                               tsubu::mass>;
 constexpr std::size_t carried_bytes = 8 + 3 * 24 + 2 * 8;
 constexpr std::size_t carried_words = carried_bytes / 8;
+
+/// What else particles carry: histories, temperatures, stresses.
+template <std::size_t Words>
+inline constexpr tsubu::field<"load", std::array<double, Words>> load{};
+template <std::size_t Words>
+using loaded = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>, tsubu::force<3>, tsubu::radius,
+                             tsubu::mass, load<Words>>;
 
 // ---------------------------------------------------------------------------------------------------------------
 // Where the particles are, and what is asked of all alike
@@ -151,7 +159,7 @@ template <class Curve>
 // An operation is a function of its own, here and by hand, and the build aligns loops to cache lines: where a loop of a
 // few instructions happens to lie can double its time, and tells nothing.
 
-template <class Layout>
+template <class Layout, class Fields = carried>
 class store_contender {
 public:
     explicit store_contender(const questions& asked) {
@@ -201,7 +209,7 @@ public:
         return sum;
     }
     [[gnu::noinline]] void pack(const questions& asked, std::span<std::uint64_t> out) const {
-        tsubu::pack(particles_, carried{}, asked.chosen, out);
+        tsubu::pack(particles_, Fields{}, asked.chosen, out);
     }
     [[gnu::noinline]] void permute(const questions& asked) { particles_.permute(asked.permutation); }
     [[nodiscard]] double memory_bytes() const { return static_cast<double>(particles_.memory_bytes()); }
@@ -209,7 +217,7 @@ public:
     [[nodiscard]] auto places() const { return particles_[tsubu::position<3>]; }
 
 private:
-    tsubu::particle_store<carried, Layout> particles_;
+    tsubu::particle_store<Fields, Layout> particles_;
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -461,11 +469,6 @@ void measure_pair(const std::string& name, const std::shared_ptr<questions>& ask
     })->UseManualTime();
 }
 
-void run_registered(row_reporter& report) {
-    benchmark::RunSpecifiedBenchmarks(&report);
-    benchmark::ClearRegisteredBenchmarks();
-}
-
 /// They must agree before they are measured.
 template <class Store, class Hand>
 void compare(const std::string& name, const questions& asked, std::vector<std::uint64_t>& packed) {
@@ -510,6 +513,64 @@ void run_pairs(std::size_t count, row_reporter& report) {
     add_layout<tsubu::aos, hand_aos>("aos", asked, out);
     add_layout<tsubu::aosoa<16>, hand_aosoa<16>>("aosoa16", asked, out);
     run_registered(report);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Field sets: the same operations as particles carry more
+
+/// All layouts with one set of fields, in turns. They must agree before they are measured.
+template <class Fields>
+class field_set {
+    static constexpr std::size_t bytes = tsubu::particle_store<Fields>::bytes_per_particle;
+
+public:
+    field_set(const questions& asked, std::size_t rounds) : asked_(&asked), out_(asked.chosen.size() * bytes / 8) {
+        add<tsubu::soa>("soa");
+        add<tsubu::aos>("aos");
+        add<tsubu::aosoa<16>>("aosoa16");
+        rounds_ = rounds;
+    }
+    void measure(row_reporter& report) const { take_turns(report, all_, rounds_); }
+
+private:
+    template <class Layout>
+    void add(const char* layout) {
+        const auto one = std::make_shared<store_contender<Layout, Fields>>(*asked_);
+        one->update();
+        one->permute(*asked_);
+        one->pack(*asked_, out_);
+        if (first_packed_.empty()) first_packed_ = out_;
+        if (out_ != first_packed_)
+            throw std::runtime_error(std::string("store/carried: ") + layout + " packs other bytes than soa");
+
+        const auto count = asked_->places.size();
+        const auto add_operation = [&](const char* operation, std::size_t items, auto pass) {
+            const std::string name = std::string("store/carried/") + layout + "/" + operation + "/" +
+                                     std::to_string(bytes) + "/N:" + std::to_string(count);
+            const auto passes = static_cast<std::size_t>(std::max(1.0, turn_length / time_of(1, pass)));
+            all_.push_back({name, static_cast<double>(items),
+                            [=](row_fields&) { return 1e-9 * time_of(passes, pass); }});
+        };
+        add_operation("update", count, [one] { one->update(); });
+        add_operation("permute", count, [this, one] { one->permute(*asked_); });
+        add_operation("pack", asked_->chosen.size(), [this, one] {
+            one->pack(*asked_, out_);
+            benchmark::DoNotOptimize(out_.data());
+        });
+    }
+
+    const questions* asked_;
+    std::vector<std::uint64_t> out_, first_packed_;
+    std::vector<timed_contender> all_;
+    std::size_t rounds_ = 0;
+};
+
+void run_field_sets(std::size_t count, std::size_t rounds, row_reporter& report) {
+    const questions asked(cells_along(tsubu::hilbert_curve{}, count));
+    field_set<carried>(asked, rounds).measure(report);  // 96 bytes
+    field_set<loaded<8>>(asked, rounds).measure(report);
+    field_set<loaded<24>>(asked, rounds).measure(report);
+    field_set<loaded<56>>(asked, rounds).measure(report);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -623,22 +684,29 @@ void run_growth(extent how_much, row_reporter& report) {
 std::vector<group> plan(extent how_much) {
     std::vector<group> groups;
     for (const std::size_t count : {10'000U, 100'000U, 1'000'000U, 10'000'000U}) {
-        if (count == 100'000 && how_much == extent::quick) continue;
+        if (count > 100'000 && how_much == extent::quick) continue;
         if (count == 10'000'000 && how_much != extent::full) continue;
         const auto end = "/N:" + std::to_string(count);
         const auto long_ones = static_cast<double>(count) / 1e6;
-        groups.push_back({"store/pair" + end, 5 + 60 * long_ones, [=](row_reporter& r) { run_pairs(count, r); }});
-        groups.push_back({"store/sorting" + end, 2 + 8 * long_ones, [=](row_reporter& r) { run_sorting(count, r); }});
+        groups.push_back({"store/pair" + end, (how_much == extent::quick ? 30 : 60) * (0.02 + long_ones),
+                          [=](row_reporter& r) { run_pairs(count, r); }});
+        groups.push_back({"store/sorting" + end, 0.5 + 9 * long_ones, [=](row_reporter& r) { run_sorting(count, r); }});
     }
-    groups.push_back({"store/growth", how_much == extent::full ? 150.0 : 12.0,
+    // All layouts of the largest particles, 544 bytes each, are in memory at once: no more than this fit into 2 GB.
+    for (const std::size_t count : {10'000U, 300'000U})
+        groups.push_back({"store/carried/N:" + std::to_string(count), 1 + 1e-5 * static_cast<double>(count),
+                          [=](row_reporter& report) {
+                              run_field_sets(count, how_much == extent::quick ? 5 : 11, report);
+                          }});
+    groups.push_back({"store/growth", how_much == extent::full ? 150.0 : how_much == extent::quick ? 1.5 : 12.0,
                       [=](row_reporter& report) { run_growth(how_much, report); }});
     return groups;
 }
 
 constexpr const char* usage =
     "bench_store [--quick | --full] [--only TEXT] [--benchmark_out=FILE.json] [--benchmark_...]\n"
-    "  --quick     N = 1e4, 1e6: about a minute\n"
-    "  (neither)   N = 1e4, 1e5, 1e6, and more repetitions: about 3 minutes\n"
+    "  --quick     N = 1e4, 1e5: a quarter of a minute, 2 GB of memory\n"
+    "  (neither)   N = 1e4, 1e5, 1e6, and more repetitions: about 4 minutes\n"
     "  --full      N = 1e7 as well: 12 GB of memory\n"
     "  --only TEXT only groups whose name contains it, such as store/pair/N:100000 or store/growth\n";
 
@@ -659,7 +727,7 @@ void keep_memory([[maybe_unused]] std::size_t bytes) {
 }
 
 int run(const options& chosen) {
-    keep_memory((chosen.how_much == extent::full ? std::size_t{11'000} : std::size_t{1'600}) << 20);
+    keep_memory((chosen.how_much == extent::full ? std::size_t{11'000} : std::size_t{2'000}) << 20);
     return run_groups("bench_store", plan(chosen.how_much), chosen);
 }
 

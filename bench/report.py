@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Draws the results of the programs of bench/: one page without references to anything outside itself, or the tables
-and the picture of the README.
+and the picture of the README; or compares two runs.
 
     report.py RESULT.json [MORE.json.gz ...] -o bench/out/report.html
+    report.py --compare OLD NEW -o bench/out/compare.html
     report.py --markdown RESULT.json
     report.py --picture FILE.svg RESULT.json
 
 Times are medians over the repetitions; the spread is the lowest and the highest. Every ratio is one of two medians of
 the same group, so of two series whose repetitions ran interleaved; in the room store each repetition has a ratio of its
-own. The package report, beside this file, does the work.
+own. The package report, beside this file, does the work: a module per room, charts/ for the five that the page begins
+with, front for what stands around them, compare for two runs, page and drawing for what all share.
 """
 import sys
 

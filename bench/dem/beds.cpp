@@ -17,6 +17,8 @@
 #include <tsubu/neighbor/pair_list.hpp>
 #include <tsubu/neighbor/reach.hpp>
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>    // std::max
 #include <cmath>        // std::abs, std::nextafter
 #include <cstdio>       // std::fprintf, std::rename

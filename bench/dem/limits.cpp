@@ -223,9 +223,9 @@ void cliff(row_reporter& report, extent how_much) {
 
 void add_limits(std::vector<group>& groups, extent how_much) {
     const double longer = how_much == extent::quick ? 1 : 8;
-    groups.push_back({"dem/walls", 2, between_walls});
+    groups.push_back({"dem/walls", 0.1, between_walls});
     groups.push_back({"dem/gas", 6 * longer, [how_much](row_reporter& report) { gas(report, how_much); }});
-    groups.push_back({"dem/settle", 5 * longer, [how_much](row_reporter& report) { cliff(report, how_much); }});
+    groups.push_back({"dem/settle", 2.5 * longer, [how_much](row_reporter& report) { cliff(report, how_much); }});
 }
 
 }  // namespace bench

@@ -5,8 +5,9 @@ import itertools
 import math
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, figure_of, markdown_claims, markdown_row, middle, plain_ticks, power, quotient,
-                   ratio_cell, svg_of, table)
+from .page import (INK, Claim, Refusal, figure_cell, figure_of, markdown_claims, markdown_row, middle, plain_ticks,
+                   power, quotient, ratio_cell, svg_of, table)
+from .reading import RoomResults
 
 SERIES = (  # name, label, colour, line
     ("tsubu", "tsubu", "#2a8fd0", "-"),
@@ -34,20 +35,19 @@ INTRODUCTION = ("Ranks: particles that migrate, and ghosts that follow their own
 CLAIM_NOTE = ""
 
 
-class Results:
+class Results(RoomResults):
     """Microseconds by (task, variant, series), one per turn; traffic by (task, series, ranks)."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.times = defaultdict(list)
         self.moved = {}   # percent: bytes by those of the leavers
         self.fields = {}  # (task, variant): of one row
         self.model = {}
         self.ranks = None
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = set(self.times)
+    def measured(self):
+        return (self.times,)
 
     def add(self, row):
         _, task, variant, series, last = row["name"].split("/")
@@ -336,11 +336,6 @@ def links(results):
     return ([("ranks", "Ranks")] if results.times else []) + ([("many", "Many ranks")] if results.model else [])
 
 
-def time_cell(time):
-    return (f'<td class="figure">{figure_of(time)} <small>({figure_of(time.low)}–{figure_of(time.high)})</small></td>'
-            if time else "<td></td>")
-
-
 def migrate_table(results):
     rows = []
     still = results.time("migrate", 0, "tsubu")
@@ -349,8 +344,8 @@ def migrate_table(results):
         beyond = quotient(type(time)(time - still, time.low - still.high, time.high - still.low), raw) \
             if still and raw and time > still else None
         leavers = int(results.fields[("migrate", str(percent))]["leavers"])
-        rows.append([f"{percent} %", f'<td class="figure">{leavers * results.ranks}</td>', time_cell(time),
-                     time_cell(results.time("migrate", percent, "hand")), time_cell(raw),
+        rows.append([f"{percent} %", f'<td class="figure">{leavers * results.ranks}</td>', figure_cell(time),
+                     figure_cell(results.time("migrate", percent, "hand")), figure_cell(raw),
                      ratio_cell(results.over_hand("migrate", percent, "tsubu")),
                      ratio_cell(results.over_raw("migrate", percent, "tsubu")), ratio_cell(beyond),
                      f'<td class="figure">{results.moved[percent]:.4f}x</td>' if percent in results.moved else ""])
@@ -365,7 +360,7 @@ def ghost_table(results):
             for name, label, *_ in results.series(task, size):
                 time = results.time(task, size, name)
                 rows.append([TASKS[task], f'<td class="figure">{int(results.fields[(task, size)]["ghosts"])}</td>',
-                             label, time_cell(time),
+                             label, figure_cell(time),
                              ratio_cell(results.over_raw(task, size, name)) if name != "raw" else "",
                              ratio_cell(results.over_hand(task, size, name)) if name in PATTERNS else ""])
     return table(["Task", "Ghosts", "", "µs", "/ MPI_Sendrecv", "/ by hand"], rows)

@@ -4,8 +4,9 @@ import html
 import math
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_of, limits, listed, markdown_claims, markdown_row, middle,
-                   plain_ticks, quotient, ratio_cell, svg_of, table)
+from .page import (GRID, INK, Claim, Refusal, figure_cell, figure_of, limits, listed, markdown_claims, markdown_row,
+                   middle, plain_ticks, quotient, ratio_cell, svg_of, table)
+from .reading import RoomResults
 
 LAWS = {  # name: label, order of the restitution's error, with which integrator
     "hooke": ("Hooke", 2, "velocity_verlet"), "dashpot": ("Hooke and dashpot", 1, "velocity_verlet"),
@@ -55,16 +56,15 @@ INTRODUCTION = (
 CLAIM_NOTE = ""
 
 
-class Results:
+class Results(RoomResults):
     """Rows by the name of their task and what follows it."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.rows = defaultdict(list)  # (task, a, b, c)
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = set(self.rows)
+    def measured(self):
+        return (self.rows,)
 
     def add(self, row):
         _, task, *rest = row["name"].split("/")
@@ -77,6 +77,10 @@ class Results:
 
     def repetitions(self):
         return {len(rows) for rows in self.rows.values() if "repetition_index" in rows[0]} or {1}
+
+    def missing(self):
+        """[(what, why)] of what could not be measured, as the program tells it."""
+        return [key[1:3] for key in self.rows if key[0] == "missing"]
 
     def has(self, task):
         return any(key[0] == task for key in self.rows)
@@ -567,8 +571,8 @@ def choice_of(results, task, case, tolerance, cost_task, cost_case, per_step, wh
         return f"No curve reaches {what} of {tolerance:g}."
     best = found[0]
     others = [f for f in found if f[3] == "double" and f[2] not in (best[2],)]
-    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with about {best[1]:.0f} steps of a contact: "
-            f"{figure_of(best[0])} µs per simulated second and particle")
+    text = (f"For {what} below {tolerance:g}, choose {label_of(*best[2:])} with about {best[1]:.0f} steps of a "
+            f"contact: {figure_of(best[0])} µs per simulated second and particle")
     if others:
         ratio = others[0][0] / best[0]
         text += (f"; {label_of(*others[0][2:])} costs the same" if limits(ratio)[0] < 1.05 else
@@ -598,16 +602,11 @@ def order_table(results, task, cases, tolerance=TOLERANCE):
                   f"Steps for {tolerance:g}"], rows)
 
 
-def cost_cell(time):
-    return (f'<td class="figure">{figure_of(time)} <small>({figure_of(time.low)}–{figure_of(time.high)})</small></td>'
-            if time else "<td></td>")
-
-
 def cost_table(results):
     laws = [law for law in LAWS if ("cost", law, "velocity_verlet", "double") in results.rows]
     rows = []
     for integrator, number, *_ in SERIES:
-        cells = [cost_cell(results.time("cost", law, integrator, number)) for law in laws]
+        cells = [figure_cell(results.time("cost", law, integrator, number)) for law in laws]
         if any(c != "<td></td>" for c in cells):
             rows.append([label_of(integrator, number), *cells])
     return table(["ns per particle-step, a row of 4096 spheres that touch"] + [LAWS[law][0] for law in laws], rows)
@@ -691,7 +690,7 @@ def ladder_table(results):
         label = RUNGS.get(name, name) if number == "double" else f"history, {NUMBERS[number]}"
         over = results.base_of(rung)
         over_label = "" if not over or over == rung else RUNGS[over[0]].lstrip("+ ")
-        rows.append([label, cost_cell(results.time("ladder", *rung)), over_label,
+        rows.append([label, figure_cell(results.time("ladder", *rung)), over_label,
                      ratio_cell(results.over_base(rung)) if over != rung else "",
                      f'<td class="figure">{results.field("bytes", "ladder", *rung):.0f}</td>',
                      f'<td class="figure">{results.field("carried", "ladder", *rung):.0f}</td>'])
@@ -706,7 +705,7 @@ def beside_table(results):
         sizes = [results.field(what, "beside", scene, who, "double") for what in ("bytes", "resident")
                  for who in ("tsubu", "lammps")]
         difference = results.field("difference", "same", scene, "kinetic", "double")
-        cells = [SCENES[scene][0], cost_cell(ours), cost_cell(theirs), ratio_cell(results.speedup(scene)),
+        cells = [SCENES[scene][0], figure_cell(ours), figure_cell(theirs), ratio_cell(results.speedup(scene)),
                  f'<td class="figure">{1e3 / ours:.1f}</td>',
                  f'<td class="figure">{1e3 / theirs:.1f}</td>' if theirs else ""]
         cells += [f'<td class="figure">{s:.0f}</td>' if s else "" for s in sizes]
@@ -730,7 +729,7 @@ def hand_table(results):
     for task in ("forces", "motion"):
         times = [results.time("hand", task, who, "double") for who in ("tsubu", "plain", "lanes")]
         if times[0]:
-            rows.append([task, *map(cost_cell, times), ratio_cell(results.over_hand(task))])
+            rows.append([task, *map(figure_cell, times), ratio_cell(results.over_hand(task))])
     return table(["", "tsubu, ns per particle", "by hand, one after the other", "by hand, in lanes",
                   "tsubu / quickest by hand"], rows)
 
@@ -763,8 +762,8 @@ LADDER_TEXT = (
 BESIDE_TEXT = (
     "Both begin from the same doubles and do the same steps, each turn anew. With Hertz, Mindlin and Tsuji LAMMPS "
     "turns the spring of a contact before it lengthens it, and not after, so that energies differ in more than "
-    "rounding. Bytes are those that each program tells, of particles and lists; resident is by how much its memory grew "
-    "in all.")
+    "rounding. Bytes are those that each program tells, of particles and lists; resident is by how much its memory "
+    "grew in all.")
 
 
 def figure_element(figure, pyplot, title):
@@ -864,9 +863,8 @@ def sections(results, pyplot):
                      figure_element(beside_chart(results, pyplot), pyplot, "LAMMPS") + beside_table(results))
     if results.has("ranks"):
         parts.append("<h3>Ranks</h3>" + text(rank_sentences(results)))
-    missing = [key[1:3] for key in results.rows if key[0] == "missing"]
-    if missing:
-        parts.append(text("Not measured: " + listed([f"{what} ({why})" for what, why in missing]) + "."))
+    if results.missing():
+        parts.append(text("Not measured: " + listed([f"{what} ({why})" for what, why in results.missing()]) + "."))
     return "".join(parts)
 
 

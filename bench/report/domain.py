@@ -4,8 +4,9 @@ import html
 import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, power, quotient,
-                   ratio_cell, spread_text, svg_of, table)
+from .page import (GRID, INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, power,
+                   quotient, ratio_cell, spread_text, svg_of, table)
+from .reading import RoomResults
 
 # name: (label, colour, marker)
 SCALARS = {
@@ -40,20 +41,19 @@ CLAIM_NOTE = ("A plain read sums the bytes of the same three columns; the mask t
               "alone.")
 
 
-class Results:
+class Results(RoomResults):
     """Times by (scalar, border, operation, N), partitions by (scalar, border, scale), errors by (scalar, step, origin).
     """
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.times = defaultdict(list)  # ns per point, one per repetition
         self.partitions = {}
         self.errors = {}
         self.refused = {}               # any of the keys above: message
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = set(self.times)
+    def measured(self):
+        return (self.times,)
 
     def add(self, row):
         _, kind, *words = row["name"].split("/")

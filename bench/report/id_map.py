@@ -9,6 +9,7 @@ from collections import defaultdict
 
 from .page import (INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, plain_ticks, power,
                    quotient, spread_text, svg_of, table)
+from .reading import RoomResults
 
 OWN = ("dense", "bitmap", "paged", "flat", "chained_mixed", "chained_mod_prime")
 RIVALS = ("std_unordered_map", "boost_flat_map", "absl_flat_hash_map", "absl_prefetched")
@@ -56,19 +57,18 @@ HARD_PATTERNS = re.compile(r"multiples_of|stride_2|fibonacci|clustered|rank_in_l
 # Reading
 
 
-class Results:
+class Results(RoomResults):
     """Medians and spreads by (pattern, N, ratio, series, operation)."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.times = defaultdict(list)  # ns per item, one per repetition
         self.memory = {}                # (pattern, N, ratio, series): bytes per particle
         self.refused = {}               # the same key: message
         self.degenerate = {}            # the same key: (visits per look-up, ns per particle of a rebuild or None)
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = set(self.times)
+    def measured(self):
+        return (self.times,)
 
     def add(self, row):
         pattern, count, ratio, series, *operation = row["name"].split("/")

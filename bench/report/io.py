@@ -3,8 +3,9 @@
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, Spread, figure_of, listed, markdown_claims, markdown_row, power, quotient,
-                   ratio_cell, svg_of, table)
+from .page import (INK, Claim, Refusal, Spread, figure_cell, figure_of, listed, markdown_claims, markdown_row, power,
+                   quotient, ratio_cell, svg_of, table)
+from .reading import RoomResults
 
 # (task, variant): what the rows of charts and tables are called
 TASKS = {
@@ -35,17 +36,16 @@ INTRODUCTION = ("Particles from and to files: LAMMPS data files beside fscanf an
 CLAIM_NOTE = ""
 
 
-class Results:
+class Results(RoomResults):
     """Bytes per second by (task, variant, series, N)."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.rates = defaultdict(list)  # bytes per second, one per repetition
         self.bytes = {}                 # (task, variant, N): of the file
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = set(self.rates)
+    def measured(self):
+        return (self.rates,)
 
     def add(self, row):
         _, task, variant, series, last = row["name"].split("/")
@@ -150,11 +150,6 @@ def readme_picture(results, path, pyplot):
 # Sections of the page
 
 
-def rate_cell(rate):
-    return (f'<td class="figure">{figure_of(rate)} <small>({figure_of(rate.low)}–{figure_of(rate.high)})</small></td>'
-            if rate else "<td></td>")
-
-
 def verdict_cell(ratio):
     """Does reading keep the promise here?"""
     if ratio is None:
@@ -173,11 +168,11 @@ def rate_table(results, kinds):
             against = results.over(task, variant, rival, count) if rival else None
             size = results.bytes[(task, variant, count)] / 1e6
             row = [TASKS[(task, variant)], power(count), f'<td class="figure">{size:.3g}</td>',
-                   rate_cell(results.rate(task, variant, "tsubu", count))]
+                   figure_cell(results.rate(task, variant, "tsubu", count))]
             if any(kind in BY_C for kind in kinds):
-                row += [rate_cell(results.rate(task, variant, rival, count) if rival else None), ratio_cell(against),
+                row += [figure_cell(results.rate(task, variant, rival, count) if rival else None), ratio_cell(against),
                         verdict_cell(against) if task == "read" else ""]
-            row += [rate_cell(results.rate(task, variant, "plain", count)),
+            row += [figure_cell(results.rate(task, variant, "plain", count)),
                     ratio_cell(results.over(task, variant, "plain", count))]
             rows.append(row)
     by_c = ["fscanf, fprintf", "tsubu / C", f"at least {PROMISE:g}x"] if any(kind in BY_C for kind in kinds) else []

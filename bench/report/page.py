@@ -3,13 +3,28 @@
 import html
 import io
 import math
+import os
 import re
 import statistics
-
-REQUIRED_CONTEXT = ("machine", "compiler", "flags", "commit", "instruction_set", "huge_pages", "date")
+import subprocess
+import sys
 
 INK = "#010203"   # becomes the colour of the page's text
 GRID = "#040506"  # becomes the colour of the page's rules
+PAPER = "#070809"  # becomes the colour behind all
+# name: (what is drawn with, on a light page, on a dark one). Those of Okabe and Ito, which the colour-blind tell apart,
+# darker or lighter where they would be faint. Markers and lines differ as well, for pages without colour.
+PALETTE = {
+    "blue": ("#0a0b01", "#0072b2", "#56a8e0"), "vermilion": ("#0a0b02", "#c8500a", "#f08a4b"),
+    "green": ("#0a0b03", "#00805c", "#3cc79a"), "purple": ("#0a0b04", "#a94f86", "#e09ac4"),
+    "yellow": ("#0a0b05", "#8f7400", "#e6d544"), "sky": ("#0a0b06", "#3a8fc4", "#93d2f7"),
+    "orange": ("#0a0b07", "#b97a00", "#f0b84a"), "grey": ("#0a0b08", "#6b7075", "#a5abb1"),
+    "red": ("#0a0b09", "#b3261e", "#ff8a80"),
+}
+
+
+def colour(name):
+    return PALETTE[name][0]
 
 
 class Refusal(Exception):
@@ -30,9 +45,9 @@ class Spread(float):
 
 
 def power(n):
-    """10000 -> 1e4, 64 -> 64."""
-    exponent = math.log10(n) if n > 0 else 0
-    return f"1e{round(exponent)}" if n >= 10000 and abs(exponent - round(exponent)) < 1e-9 else str(n)
+    """10000 -> 1e4, 400000 -> 4e5, 64 -> 64."""
+    digits = str(n)
+    return f"{digits[0]}e{len(digits) - 1}" if n >= 10000 and not digits[1:].strip("0") else digits
 
 
 def figure_of(value):
@@ -40,6 +55,11 @@ def figure_of(value):
     if value == 0:
         return "0"
     return f"{value:.0f}" if value >= 100 else f"{value:.1f}" if value >= 10 else f"{value:.2f}"
+
+
+def short_power(value):
+    """1e-05 -> 1e-5"""
+    return f"{value:g}".replace("e-0", "e-").replace("e+0", "e")
 
 
 def limits(value):
@@ -64,6 +84,55 @@ def middle(values):
         k += 1
         below += 2.0 * math.comb(count, k) / 2**count
     return Spread(statistics.median(values), values[k], values[-1 - k])
+
+
+def scaled(value, factor):
+    """The Spread of what is proportional."""
+    return Spread(value * factor, *(x * factor for x in limits(value)))
+
+
+def apart(a, b):
+    """The rule of noise, of all sentences and comparisons: two medians differ if the intervals in which they lie do
+    not overlap."""
+    (a_low, a_high), (b_low, b_high) = limits(a), limits(b)
+    return a_high < b_low or b_high < a_low
+
+
+def as_good(values):
+    """Of {name: cost} those names that are within noise of the least, the least first."""
+    found = sorted((value, name) for name, value in values.items() if value)
+    return [name for value, name in found if not apart(value, found[0][0])]
+
+
+def runs_of_choice(places, values_at):
+    """[(name, [places])]: what to choose along an axis, changed only where it is worse than the best beyond noise.
+
+    values_at(place): {name: cost}."""
+    runs = []
+    for place in places:
+        good = as_good(values_at(place))
+        if good and runs and runs[-1][0] in good:
+            runs[-1][1].append(place)
+        elif good:
+            runs.append((good[0], [place]))
+    return runs
+
+
+def spans_text(runs, at, label=str, place=str):
+    """dense up to T/N = 8, flat from 64 on"""
+    parts = []
+    for k, (name, places) in enumerate(runs):
+        first, last = place(places[0]), place(places[-1])
+        if len(runs) == 1:
+            span = "everywhere"
+        elif k == 0:
+            span = f"at {at}{first}" if first == last else f"up to {at}{last}"
+        elif k == len(runs) - 1:
+            span = f"from {first} on" if first != last else f"at {first}"
+        else:
+            span = f"at {first}" if first == last else f"from {first} to {last}"
+        parts.append(f"{label(name)} {span}")
+    return listed(parts)
 
 
 def listed(words):
@@ -143,12 +212,28 @@ CLAIM_HEAD = ("Claim", "Target", "Median", "Worst", "Where", "Portable, worst", 
 # Charts
 
 
+SYSTEM_PYTHON = "/usr/bin/python3"  # where the packages of Linux distributions put matplotlib
+
+
+def go_on_with_system_python():
+    """Replaces this program by itself under the system's python, if that is another one and has matplotlib."""
+    if not os.access(SYSTEM_PYTHON, os.X_OK) or os.path.realpath(SYSTEM_PYTHON) == os.path.realpath(sys.executable):
+        return
+    probe = subprocess.run([SYSTEM_PYTHON, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False)
+    if probe.returncode == 0:
+        print(f"report.py: {sys.executable} has no matplotlib; going on with {SYSTEM_PYTHON}, which has it",
+              file=sys.stderr, flush=True)
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
+
+
 def plotting():
     try:
         import matplotlib
     except ImportError as fault:
-        raise Refusal("matplotlib is not installed; on Debian: python3-matplotlib, elsewhere: pip install matplotlib "
-                      "(--markdown does without)") from fault
+        go_on_with_system_python()
+        raise Refusal(f"neither {sys.executable} nor {SYSTEM_PYTHON} has matplotlib; on Debian: apt-get install "
+                      "python3-matplotlib, elsewhere: python3 -m pip install matplotlib; --markdown and --compare do "
+                      "without") from fault
     matplotlib.use("svg")
     matplotlib.rcParams.update({
         "svg.fonttype": "none", "font.size": 9.5, "figure.facecolor": "none", "axes.facecolor": "none",
@@ -159,19 +244,21 @@ def plotting():
     return pyplot
 
 
-def svg_of(figure, pyplot, title):
+def svg_of(figure, pyplot, title, cropped=True):
     """The figure as an element of the page: scales with it, takes its colours."""
     import matplotlib
     matplotlib.rcParams["svg.hashsalt"] = title  # names inside one picture must not be those of another
     out = io.StringIO()
-    figure.savefig(out, format="svg", bbox_inches="tight", pad_inches=.06)
+    figure.savefig(out, format="svg", **({"bbox_inches": "tight", "pad_inches": .06} if cropped else {}))
     pyplot.close(figure)
     text = out.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
     text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="width:100%;max-width:\2pt"', text,
                   count=1)
     text = text.replace("<svg", f'<svg role="img" aria-label="{html.escape(title, quote=True)}"', 1)
-    return text.replace(INK, "currentColor").replace(GRID, "var(--rule)")
+    for name, (stand_in, *_) in PALETTE.items():
+        text = text.replace(stand_in, f"var(--{name})")
+    return text.replace(INK, "currentColor").replace(GRID, "var(--rule)").replace(PAPER, "var(--paper)")
 
 
 def plain_ticks(axis):
@@ -189,10 +276,12 @@ def plain_ticks(axis):
 
 STYLE = """
 :root { color-scheme: light dark; --ink: #1c1f23; --paper: #ffffff; --rule: #c9ced4; --soft: #f3f5f7;
-        --good: #1d7a3c; --bad: #b3261e; }
+        --good: #1d7a3c; --bad: #b3261e;
+        LIGHT }
 @media (prefers-color-scheme: dark) {
     :root { --ink: #e4e7ea; --paper: #15181b; --rule: #454c54; --soft: #1f2428;
-        --good: #6fce8d; --bad: #ff8a80; } }
+        --good: #6fce8d; --bad: #ff8a80;
+        DARK } }
 body { color: var(--ink); background: var(--paper); font: 15px/1.5 system-ui, sans-serif; max-width: 1240px;
        margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.6rem; } h2 { margin-top: 2.6rem; border-bottom: 1px solid var(--rule); padding-bottom: .2rem; }
@@ -207,7 +296,22 @@ thead th { background: var(--soft); } td small { opacity: .75; white-space: nowr
 .holds { color: var(--good); font-weight: 600; white-space: nowrap; }
 .fails { color: var(--bad); font-weight: 600; white-space: nowrap; }
 .noisy { font-style: italic; }
+svg text { font-family: system-ui, sans-serif !important; }
+.lead { font-size: 1.05rem; } .sentence { font-size: 1.05rem; max-width: 88ch; border-left: 4px solid var(--blue);
+        padding-left: .8rem; } .warning { border-left: 4px solid var(--red); padding: .1rem .8rem; max-width: 88ch; }
+.question { opacity: .85; }
+.panels { display: grid; gap: .6rem 1.2rem; grid-template-columns: repeat(auto-fit, minmax(min(340px, 100%), 1fr)); }
+.panels h4 { margin: .4rem 0 0; font-size: .95rem; } .panels svg { min-width: 0; }
+.legend { list-style: none; display: flex; flex-wrap: wrap; gap: .1rem 1.1rem; padding: 0; margin: .4rem 0;
+          font-size: 13px; max-width: none; }
+.legend li { display: flex; align-items: center; gap: .4rem; } .legend svg { width: 40px !important; min-width: 40px; }
+details.appendix { border-top: 1px solid var(--rule); padding: .5rem 0; }
+details.appendix > summary { font-size: 1.15rem; font-weight: 600; }
+@media (max-width: 600px) { body { padding: 0 .7rem; margin: 1rem auto; } h1 { font-size: 1.35rem; } }
+@media print { details.appendix { display: none; } }
 """
+STYLE = STYLE.replace("LIGHT", " ".join(f"--{name}: {light};" for name, (_, light, _) in PALETTE.items()))
+STYLE = STYLE.replace("DARK", " ".join(f"--{name}: {dark};" for name, (*_, dark) in PALETTE.items()))
 
 
 def table(head, rows):
@@ -221,15 +325,30 @@ def spread_text(times):
     return f"{figure_of(statistics.median(times))} <small>({figure_of(min(times))}–{figure_of(max(times))})</small>"
 
 
-def ratio_cell(ratio):
-    if ratio is None:
+def figure_cell(value, unit=""):
+    """A Spread with its limits; empty if there is none."""
+    if not value:
         return "<td></td>"
-    low, high = figure_of(ratio.low), figure_of(ratio.high)
-    return f'<td class="figure">{figure_of(ratio)}x <small>({low}–{high})</small></td>'
+    low, high = figure_of(value.low), figure_of(value.high)
+    return f'<td class="figure">{figure_of(value)}{unit} <small>({low}–{high})</small></td>'
+
+
+def ratio_cell(ratio):
+    return figure_cell(ratio, "x")
 
 
 def folded(summary, content):
     return f"<details><summary>{html.escape(summary)}</summary>{content}</details>"
+
+
+def document(title, body):
+    return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title>'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            f"<style>{STYLE}</style></head><body><h1>{html.escape(title)}</h1>{body}</body></html>\n")
+
+
+def appendix(title, content):
+    return f'<details class="appendix"><summary>{html.escape(title)}</summary>{content}</details>'
 
 
 def claim_section(claims, note):

@@ -2,8 +2,9 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle,
-                   power, quotient, ratio_cell, spread_text, svg_of, table)
+from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle, power,
+                   quotient, ratio_cell, spread_text, svg_of, table)
+from .reading import RoomResults
 
 # name: (label, colour, marker)
 LAYOUTS = {
@@ -36,25 +37,27 @@ CLAIM_NOTE = ("A store and its hand-written twin take turns, and each repetition
               "store the limits are those of the median of these ratios, at 93 % or more.")
 
 
-class Results:
+class Results(RoomResults):
     """Pairs by (layout, operation, N), gathers by (layout, order, N), orders by (curve, N), growth by (policy, N)."""
 
     def __init__(self):
-        self.contexts = []
+        super().__init__()
         self.pairs = defaultdict(list)    # (ns of the store, ns by hand, their ratio), one per repetition
         self.bytes = {}                   # (layout, N): (bytes per place, bytes per particle)
+        self.carried = defaultdict(list)  # (layout, operation, bytes per particle, N): ns
         self.gathers = defaultdict(list)  # ns per particle
         self.orders = defaultdict(list)   # ns per particle
         self.copies = {}                  # elements copied, reallocations
         self.appends = defaultdict(list)  # ns per append
 
-    def begin_file(self, context):
-        self.contexts.append(context)
-        self.already = {key for cells in (self.pairs, self.gathers, self.orders, self.appends) for key in cells}
+    def measured(self):
+        return self.pairs, self.carried, self.gathers, self.orders, self.appends
 
     def add(self, row):
         _, kind, *words, last = row["name"].split("/")
         cell = (*words, int(last.split(":")[1]))
+        if kind == "carried":
+            cell = (cell[0], cell[1], int(cell[2]), cell[3])
         if kind == "growth":
             self.copies.setdefault(cell, (row["copied"], row["reallocations"]))
         elif cell in self.already:  # of two runs of one cell the first counts
@@ -62,6 +65,8 @@ class Results:
         elif kind == "pair":
             self.pairs[cell].append((row["store_ns"], row["by_hand_ns"], row["ratio"]))
             self.bytes[(cell[0], cell[-1])] = (row["bytes_per_place"], row["bytes_per_particle"])
+        elif kind == "carried":
+            self.carried[cell].append(row["real_time"])
         elif kind == "sorted":
             self.gathers[cell].append(1e9 / row["items_per_second"])
         elif kind == "order":
@@ -70,10 +75,10 @@ class Results:
             self.appends[cell].append(row["ns_per_append"])
 
     def is_empty(self):
-        return not (self.pairs or self.gathers or self.copies)
+        return not (self.pairs or self.carried or self.gathers or self.copies)
 
     def repetitions(self):
-        return {len(t) for cells in (self.pairs, self.gathers) for t in cells.values()}
+        return {len(t) for cells in (self.pairs, self.carried, self.gathers) for t in cells.values()}
 
     def time(self, layout, operation, count):
         """Of the store; a Spread, or None if not measured."""
@@ -88,6 +93,10 @@ class Results:
         """Store / by hand, of the turns that they took one after the other."""
         found = self.pairs.get((layout, operation, count))
         return middle([ratio for *_, ratio in found]) if found else None
+
+    def carried_time(self, layout, operation, size, count):
+        found = self.carried.get((layout, operation, size, count))
+        return middle(found) if found else None
 
     def gather(self, layout, order, count):
         found = self.gathers.get((layout, order, count))
@@ -499,6 +508,18 @@ def escaped(text):
 # Tables for the README
 
 
+def markdown_carried(results):
+    count = max(n for *_, n in results.carried)
+    sizes = sorted({size for _, _, size, n in results.carried if n == count})
+    lines = [f"ns per particle, {power(count)} of them, by the bytes that each carries.", "",
+             markdown_row(["operation", "layout", *(f"{size} bytes" for size in sizes)]), "|" + "---|" * (2 + len(sizes))]
+    for operation, name in (("update", "update"), ("permute", "sort"), ("pack", "pack, per packed particle")):
+        for layout in LAYOUTS:
+            times = [results.carried_time(layout, operation, size, count) for size in sizes]
+            lines.append(markdown_row([name, f"`{label(layout)}`", *(figure_of(t) if t else "" for t in times)]))
+    return lines
+
+
 def markdown(results):
     context = results.contexts[0]
     counts = results.counts()
@@ -514,6 +535,8 @@ def markdown(results):
                          if (t := results.time(layout, operation, n)) else "" for n in counts]
                 lines.append(markdown_row([title, f"`{label(layout)}`", *cells]))
         lines += [""] + [f"- {sentence}" for sentence in choice_sentences(results)]
+    if results.carried:
+        lines += [""] + markdown_carried(results)
     if results.gathers:
         counts = results.sorted_counts()
         lines += ["", "ns per particle of a gather from 12 neighbours, by the order of the particles.", "",

@@ -3,6 +3,8 @@
 /// What the programs of the suite have in common on their command lines.
 #pragma once
 
+#include "options.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <cstddef>      // std::size_t
@@ -14,41 +16,6 @@
 #include <vector>       // std::vector
 
 namespace bench {
-
-enum class extent { quick, standard, full };
-inline constexpr const char* extent_names[] = {"quick", "standard", "full"};
-
-struct options {
-    extent how_much = extent::standard;
-    std::string out;
-    std::string only;
-    std::string ids_file;
-};
-
-/// Takes our options out of the arguments; those of Google Benchmark stay. @return false if one is not understood.
-/// @param takes_ids  whether the program has a use for --ids
-[[nodiscard]] inline bool parse(std::vector<char*>& arguments, options& chosen, bool takes_ids = false) {
-    std::vector<char*> rest{arguments.front()};
-    for (std::size_t k = 1; k < arguments.size(); ++k) {
-        const std::string_view word = arguments[k];
-        if (word == "--quick")
-            chosen.how_much = extent::quick;
-        else if (word == "--full")
-            chosen.how_much = extent::full;
-        else if (word == "--only" && k + 1 < arguments.size())
-            chosen.only = arguments[++k];
-        else if (word == "--ids" && takes_ids && k + 1 < arguments.size())
-            chosen.ids_file = arguments[++k];
-        else if (word.starts_with("--benchmark_out="))
-            chosen.out = word.substr(word.find('=') + 1);
-        else if (word.starts_with("--benchmark_"))
-            rest.push_back(arguments[k]);
-        else
-            return false;
-    }
-    arguments = rest;
-    return true;
-}
 
 /// Our defaults for Google Benchmark come first, so that the user's flags override them.
 inline void initialize_benchmark(const std::vector<char*>& user, extent how_much) {
@@ -73,12 +40,14 @@ int run_program(int argc, char** argv, const std::string& name, const char* usag
     for (const std::string_view word : arguments)
         if (word == "--help") {
             std::fputs(usage, stdout);
+            std::fputs(usage_of_all, stdout);
             return EXIT_SUCCESS;
         }
     options chosen;
     chosen.out = name + ".json";
     if (!parse(arguments, chosen, takes_ids)) {
         std::fputs(usage, stderr);
+        std::fputs(usage_of_all, stderr);
         return 2;
     }
     try {

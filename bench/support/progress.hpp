@@ -1,38 +1,72 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// A line per group on stderr, with the time that is left.
+/// How far the run is, on stderr, with the time that is left of all of it, not only of this program's share.
 #pragma once
 
-#include <chrono>   // std::chrono::steady_clock
-#include <cstddef>  // std::size_t
-#include <cstdio>   // std::fprintf, std::snprintf
-#include <string>   // std::string
+#include <unistd.h>  // isatty
+
+#include <algorithm>  // std::clamp
+#include <chrono>     // std::chrono::steady_clock
+#include <cstddef>    // std::size_t
+#include <cstdio>     // std::fflush, std::fprintf, std::snprintf
+#include <string>     // std::string
 
 namespace bench {
 
+/// Of the programs before and after this one, as bench/run tells it [s].
+struct whole_run {
+    double done = 0;   ///< what was planned for the programs before
+    double took = 0;   ///< what they took
+    double later = 0;  ///< what is planned for the programs after
+};
+
+/// What is left is what was planned, by how the time taken so far compares with the plan.
+[[nodiscard]] inline double seconds_left(const whole_run& whole, double planned, double done, double took) noexcept {
+    const double before = whole.done + done;
+    const double pace = before > 0 ? std::clamp((whole.took + took) / before, 0.1, 20.0) : 1;
+    return pace * (planned - done + whole.later);
+}
+
 class progress {
 public:
-    /// The sum of the weights of all groups.
-    explicit progress(double all) : all_(all) {}
-    void begin(std::size_t number, std::size_t count, const std::string& name) const {
-        std::fprintf(stderr, "[%zu/%zu] %-40s %s\n", number, count, name.c_str(), left().c_str());
+    /// @param planned  the seconds of all groups of this program, roughly
+    progress(double planned, const whole_run& whole) : planned_(planned), whole_(whole) {}
+
+    /// A line for each group; on a terminal one line, written anew.
+    void begin(std::size_t number, std::size_t count, const std::string& name) {
+        const double left = seconds_left(whole_, planned_, done_, seconds());
+        char time[48];
+        const int whole = static_cast<int>(left);
+        if (left < 60)
+            std::snprintf(time, sizeof time, "about %d s left", whole);
+        else if (left < 600)
+            std::snprintf(time, sizeof time, "about %d min %02d s left", whole / 60, whole % 60);
+        else
+            std::snprintf(time, sizeof time, "about %d min left", whole / 60);
+        std::fprintf(stderr, "%s[%zu/%zu] %-40s %s%s", is_terminal_ ? "\r\033[2K" : "", number, count, name.c_str(),
+                     time, is_terminal_ ? "" : "\n");
+        std::fflush(stderr);
+        began_ = seconds();
     }
-    void end(double weight) { done_ += weight; }
+    /// @return the seconds that the group took
+    double end(double planned) {
+        done_ += planned;
+        return seconds() - began_;
+    }
+    void close(const char* file) const {
+        std::fprintf(stderr, "%s%s: written after %.0f s\n", is_terminal_ ? "\r\033[2K" : "", file, seconds());
+    }
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
 private:
-    [[nodiscard]] std::string left() const {
-        if (done_ <= 0) return "";
-        const int seconds_left = static_cast<int>(seconds() * (all_ - done_) / done_);
-        char text[48];
-        std::snprintf(text, sizeof text, "about %d min %02d s left", seconds_left / 60, seconds_left % 60);
-        return text;
-    }
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double all_;
+    double planned_;
+    whole_run whole_;
     double done_ = 0;
+    double began_ = 0;
+    bool is_terminal_ = isatty(2) != 0;
 };
 
 }  // namespace bench

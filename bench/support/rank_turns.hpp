@@ -13,7 +13,6 @@
 #include <cstddef>     // std::size_t
 #include <cstdint>     // std::uint64_t
 #include <functional>  // std::function
-#include <optional>    // std::optional
 #include <span>        // std::span
 #include <string>      // std::string
 #include <utility>     // std::pair, std::swap
@@ -31,10 +30,10 @@ struct collective_contender {
 /// Google Benchmark would choose a number of iterations on each rank by itself, and they would not match.
 class rank_turns {
 public:
-    /// @param report  of rank 0 only
+    /// @param report  that of rank 0 writes
     /// @param rounds  how often each contender has its turn
     /// @param seconds of one turn, roughly
-    rank_turns(tsubu::mpi_transport& on, std::optional<row_reporter>& report, std::size_t rounds, double seconds)
+    rank_turns(tsubu::mpi_transport& on, row_reporter& report, std::size_t rounds, double seconds)
         : on_(&on), report_(&report), rounds_(rounds), seconds_(seconds) {}
 
     /// One row for each turn: the lower quartile of its calls, each of which begins after a barrier and lasts as long
@@ -55,12 +54,11 @@ public:
             for (auto n = order.size(); n > 1; --n) std::swap(order[n - 1], order[random_.below(n)]);
             for (const auto k : order) {
                 const auto time = turn(all[k], calls[k]);
-                if (!*report_) continue;
                 std::vector<std::pair<std::string, double>> row = {{"repetition_index", static_cast<double>(round)},
                                                                    {"iterations", static_cast<double>(calls[k])},
                                                                    {"real_time", 1e9 * time}};
                 row.insert(row.end(), fields.begin(), fields.end());
-                (*report_)->counted(all[k].name, row);
+                report_->counted(all[k].name, row);
             }
         }
     }
@@ -84,7 +82,7 @@ private:
     }
 
     tsubu::mpi_transport* on_;
-    std::optional<row_reporter>* report_;
+    row_reporter* report_;
     std::size_t rounds_;
     double seconds_;
     tsubu::random_stream random_{17};

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""Chart 3: which layout, as particles carry more."""
+from ..drawing import Look, label_ends, legend, new_panel, panel, panels, tables
+from ..page import apart, figure_of, listed, plain_ticks, power, runs_of_choice, spans_text, spread_text, table
+
+ROOM = "store"
+TITLE = "Which layout, and what does another field cost?"
+QUESTION = ("Time per particle over the bytes that each carries. An update reads and writes 80 of them; a sort moves "
+            "all; a pack copies all of every third particle into a message. Bars: where the median lies, at 93 % or "
+            "more.")
+ABSENT = "bench/run --only store"
+LOOKS = {"soa": Look("soa, the default: an array per field", "blue", "o", short="soa"),
+         "aos": Look("aos: an array of records", "vermilion", "s", "--", short="aos"),
+         "aosoa16": Look("aosoa<16>: blocks of 16", "green", "^", "-.", short="aosoa<16>")}
+OPERATIONS = {"update": ("Update, ns per particle", "updates"), "permute": ("Sort, ns per particle", "sorts"),
+              "pack": ("Pack, ns per packed particle", "packs")}
+
+
+def is_there(results):
+    return bool(results.carried)
+
+
+def counts_of(results):
+    return sorted({n for *_, n in results.carried})
+
+
+def sizes_of(results, count):
+    return sorted({size for _, _, size, n in results.carried if n == count})
+
+
+def carried_panel(results, operation, count, pyplot):
+    figure, axes = new_panel(pyplot, box=(.135, .155, .64, .81))
+    sizes = sizes_of(results, count)
+    ends, highest, lowest = [], 0, 1e9
+    for layout, look in LOOKS.items():
+        points = [(b, t) for b in sizes if (t := results.carried_time(layout, operation, b, count))]
+        if not points:
+            continue
+        places, times = zip(*points)
+        axes.errorbar(places, times, yerr=[[t - t.low for t in times], [t.high - t for t in times]],
+                      elinewidth=.9, capsize=2, **look.style())
+        highest, lowest = max(highest, *times), min(lowest, *times)
+        ends.append((*points[-1], look.short, look.colour))
+    axes.set(xscale="log", yscale="log", ylim=(lowest / 1.6, highest * 1.9))
+    axes.set_xlabel("bytes that a particle carries", fontsize=9, labelpad=1)
+    axes.set_xticks(sizes, [str(b) for b in sizes])
+    axes.minorticks_off()
+    plain_ticks(axes.yaxis)
+    label_ends(axes, ends)
+    return panel(figure, pyplot, f"{OPERATIONS[operation][0]}: {power(count)} particles")
+
+
+def drawn(results, pyplot):
+    return legend(LOOKS.values(), pyplot) + panels(
+        carried_panel(results, operation, count, pyplot) for count in counts_of(results) for operation in OPERATIONS)
+
+
+def operation_text(results, operation, count):
+    sizes = sizes_of(results, count)
+    costs = lambda size: {l: t for l in LOOKS if (t := results.carried_time(l, operation, size, count))}
+    runs = runs_of_choice(sizes, costs)
+    if not runs:
+        return ""
+    ends = []
+    for size in (sizes[0], sizes[-1]):
+        values = costs(size)
+        ends.append(listed([f"{LOOKS[l].short} {figure_of(v)}" for l, v in values.items()]) + f" ns at {size}")
+    choice = (LOOKS[runs[0][0]].short if len(runs) == 1 else
+              spans_text(runs, "", lambda l: LOOKS[l].short, lambda b: f"{b} bytes"))
+    return f"{choice} where {OPERATIONS[operation][1]} count ({'; '.join(ends)} bytes)"
+
+
+def sentence(results):
+    count = counts_of(results)[-1]
+    texts = [t for o in OPERATIONS if (t := operation_text(results, o, count))]
+    growth = {}
+    sizes = sizes_of(results, count)
+    for layout in LOOKS:
+        first, last = (results.carried_time(layout, "update", b, count) for b in (sizes[0], sizes[-1]))
+        if first and last and len(sizes) > 1:
+            growth[layout] = "as long, within noise," if not apart(first, last) else f"{last / first:.1f} times as long"
+    grown = listed([f"{g} in {LOOKS[l].short}" for l, g in growth.items()])
+    return (f"For {power(count)} particles choose {', '.join(texts)}; from {sizes[0]} to {sizes[-1]} bytes an update, "
+            f"which needs no more of them, comes to take {grown}.")
+
+
+def time_cell(results, cell):
+    """ns, and ps for each byte that is carried."""
+    time = results.carried_time(*cell)
+    if not time:
+        return "<td></td>"
+    return (f'<td class="figure">{spread_text(results.carried[cell])} '
+            f"<small>{figure_of(1e3 * time / cell[2])} ps per byte</small></td>")
+
+
+def figures(results):
+    parts = []
+    for count in reversed(counts_of(results)):
+        rows = []
+        for operation, (title, _) in OPERATIONS.items():
+            for layout, look in LOOKS.items():
+                cells = [time_cell(results, (layout, operation, size, count)) for size in sizes_of(results, count)]
+                rows.append([title.split(",")[0], look.short, *cells])
+        parts.append((f"{power(count)} particles: ns, median (lowest–highest), and by the bytes carried",
+                      table(["", "Layout", *(f"{b} bytes" for b in sizes_of(results, count))], rows)))
+    return tables(parts)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Reads the files that the programs of bench/ write."""
+import gzip
+import json
+
+from .page import Refusal
+
+REQUIRED_CONTEXT = ("machine", "compiler", "flags", "commit", "instruction_set", "huge_pages", "date")
+ROOMS = ("id", "domain", "store", "io", "comm", "dem")
+
+
+class RoomResults:
+    """What is known of a room: rows of one file after the other, of which the first counts where two have the same.
+
+    A room adds rows with add(row), and tells with measured() in which dictionaries the repetitions of its cells are."""
+
+    def __init__(self):
+        self.contexts = []
+        self.already = set()  # cells of the files before
+
+    def begin_file(self, context):
+        self.contexts.append(context)
+        self.already = {cell for cells in self.measured() for cell in cells}
+
+
+def room_of(rows):
+    """Rows begin with the name of their room, but for those of the id maps, which begin with a pattern of ids."""
+    return next((name for name in ROOMS if any(row["name"].startswith(name + "/") for row in rows)), "id")
+
+
+def contents_of(path):
+    """(context, rows), without the marks at the ends of groups."""
+    opened = gzip.open(path, "rt", encoding="utf-8") if path.endswith(".gz") else open(path, encoding="utf-8")
+    try:
+        with opened as file:
+            content = json.load(file)
+    except ValueError as fault:
+        raise Refusal(f"{path}: not the JSON of a run ({fault})") from fault
+    context = content.get("context", {}) if isinstance(content, dict) else {}
+    missing = [key for key in REQUIRED_CONTEXT if not context.get(key)]
+    if missing:
+        raise Refusal(f"{path}: the context lacks {', '.join(missing)}: figures without it are worth nothing; run a "
+                      "program of bench/, not Google Benchmark alone")
+    return context, [row for row in content["benchmarks"] if "group_seconds" not in row]

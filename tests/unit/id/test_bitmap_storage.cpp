@@ -144,6 +144,9 @@ TEST_CASE("an erased id can come back, and many erased ones take no room for eve
     storage.assign(11, 8);
     CHECK(storage.find(11) == 8);
     CHECK(storage.size() == 3);
+    storage.assign(11, 9);
+    CHECK(storage.find(11) == 9);
+    CHECK(storage.size() == 3);
     for (index_t k = 0; k < 100'000; ++k) {  // three ids at a time
         storage.assign(13 + k, 3 + k);
         CHECK(storage.erase(10 + k));

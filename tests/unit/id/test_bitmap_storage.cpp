@@ -248,3 +248,13 @@ TEST_CASE("a copy of a bitmap_storage is independent, and what was moved from is
     CHECK(copy.find(70'000) == 3);
     CHECK(moved.find(70'000) == absent);
 }
+
+TEST_CASE("the ids of a bitmap are walked in order, each with its index", "[id][bitmap_storage]") {
+    bitmap_storage<> storage;
+    build<bitmap_storage<>>(storage, {500, 7, 63, 64, 7});
+    storage.assign(1, 9);
+    CHECK(storage.erase(63));
+    std::vector<std::pair<std::int64_t, index_t>> walked;
+    storage.for_each([&](std::int64_t id, index_t index) { walked.emplace_back(id, index); });
+    CHECK(walked == std::vector<std::pair<std::int64_t, index_t>>{{1, 9}, {7, 1}, {64, 3}, {500, 0}});
+}

@@ -7,6 +7,7 @@
 
 #include "in_world.hpp"
 #include "support/counted_memory.hpp"
+#include "unit/thrown.hpp"
 
 #include <cstddef>
 #include <cstdint>

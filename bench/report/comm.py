@@ -320,14 +320,6 @@ def model_chart(results, which, label, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """On white: for pages that show pictures as they are."""
-    if not results.percents():
-        raise Refusal("no migration in these results: nothing to draw")
-    figure = migrate_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-
-
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
 

@@ -531,16 +531,10 @@ def beside_chart(results, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """On white: for pages that show pictures as they are."""
+def readme_chart(results, pyplot):
     if not results.scenes():
         raise Refusal("no scene beside LAMMPS in these results: nothing to draw")
-    figure = beside_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text.replace(GRID, "#d8dce2"))
+    return beside_chart(results, pyplot)
 
 
 # ---------------------------------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ import html
 import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, power,
+from .page import (GRID, INK, Claim, Spread, figure_of, folded, markdown_claims, markdown_row, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -287,14 +287,6 @@ def accuracy_chart(results, pyplot):
 def len_floor(value):
     """The exponent of the power of ten below a value."""
     return int(f"{value:e}".split("e")[1])
-
-
-def readme_picture(results, path, pyplot):
-    """Speed against accuracy, on white: for pages that show pictures as they are."""
-    if not has_accuracy_chart(results):
-        raise Refusal("no wraps and errors of the domain in these results: nothing to draw")
-    figure = accuracy_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
 
 
 # ---------------------------------------------------------------------------------------------------------------

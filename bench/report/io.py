@@ -3,7 +3,7 @@
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, Spread, figure_cell, figure_of, listed, markdown_claims, markdown_row, power,
+from .page import (INK, Claim, Spread, figure_cell, figure_of, listed, markdown_claims, markdown_row, power,
                    quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
@@ -136,14 +136,6 @@ def rate_chart(results, count, title, kinds, pyplot):
     axes.legend(loc="upper center", bbox_to_anchor=(.4, -.62 / figure.get_figheight()), ncol=3, frameon=False,
                 fontsize=8)
     return figure
-
-
-def readme_picture(results, path, pyplot):
-    """Data files, on white: for pages that show pictures as they are."""
-    if not results.tasks(("read", "write")):
-        raise Refusal("no data files in these results: nothing to draw")
-    figure = rate_chart(results, results.counts()[-1], *CHARTS[0], pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
 
 
 # ---------------------------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle, power,
+from .page import (GRID, INK, Claim, figure_of, folded, listed, markdown_claims, markdown_row, middle, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -291,14 +291,6 @@ def append_chart(results, pyplot):
     axes.set_title("What an append takes", loc="left")
     axes.legend(loc="upper center", bbox_to_anchor=(.5, -.18), ncol=3, frameon=False, fontsize=8, handlelength=3)
     return figure
-
-
-def readme_picture(results, path, pyplot):
-    """Store / by hand, on white: for pages that show pictures as they are."""
-    if not results.pairs:
-        raise Refusal("no pairs of the store in these results: nothing to draw")
-    ratio_chart(results, pyplot).savefig(path, format="svg", bbox_inches="tight", facecolor="white",
-                                         metadata={"Date": None})
 
 
 # ---------------------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from . import comm, compare, dem, domain, front, id_map, io, store
 from .charts import sparsity
 from .page import (FAILS, HOLDS, NOISY, Refusal, appendix, claim_section, context_section, document, listed,
                    markdown_claims, plotting, write_picture)
-from .reading import contents_of, room_of
+from .reading import contents_of, files_of, room_of
 
 README_CHARTS = {"id": sparsity.readme_chart, "dem": dem.readme_chart}
 ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io, "comm": comm, "dem": dem}  # in the order of the page
@@ -20,7 +20,7 @@ class Figures:
     def __init__(self, paths):
         self.results = {name: room.Results() for name, room in ROOMS.items()}
         self.contexts = []
-        for path in paths:
+        for path in (file for path in paths for file in files_of(path)):
             self.read(path)
         self.results = {name: results for name, results in self.results.items() if not results.is_empty()}
 
@@ -70,7 +70,7 @@ def write(path, text):
 def main(description):
     parser = argparse.ArgumentParser(prog="report.py", description=description)
     parser.add_argument("results", nargs="*", metavar="RESULT.json",
-                        help="of a program of bench/; .json.gz is read as well")
+                        help="of a program of bench/; .json.gz is read as well; or a folder of them")
     parser.add_argument("-o", "--out", default="bench/out/report.html", help="the page (default: %(default)s)")
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")
@@ -110,8 +110,9 @@ def main(description):
             short = [claim for claim in claims if claim.verdict() == FAILS]
             held = sum(claim.verdict() == HOLDS for claim in claims)
             noisy = sum(claim.verdict() == NOISY for claim in claims)
-            sys.stdout.write(f"Of {held + noisy + len(short)} claims with a target {held} hold, {noisy} are too noisy to "
-                             f"tell, and {len(short)} fail:\n" + "\n".join(markdown_claims(short)) + "\n")
+            count = held + noisy + len(short)
+            sys.stdout.write(f"Of {count} claims with a target {held} hold, {noisy} are too noisy to tell, and "
+                             f"{len(short)} fail:\n" + "\n".join(markdown_claims(short)) + "\n")
             return 0
         write(arguments.out, page(figures))
     except (Refusal, OSError) as fault:

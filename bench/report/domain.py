@@ -4,7 +4,7 @@ import html
 import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Spread, figure_of, folded, markdown_claims, markdown_row, power,
+from .page import (GRID, INK, Claim, Spread, figure_of, folded, markdown_row, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -441,5 +441,4 @@ def markdown(results):
                 lines.append(markdown_row([label(scalar)] + [
                     error_text(results.errors[c]["error"]) if c in results.errors else
                     "refused" if c in results.refused else "" for c in cells]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

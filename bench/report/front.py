@@ -131,4 +131,4 @@ def sentences(figures):
     for k, chart in enumerate(CHARTS, 1):
         results = figures.results.get(chart.ROOM)
         if results is not None and chart.is_there(results):
-            yield f"{k}. {chart.TITLE} {chart.sentence(results)}"
+            yield f"{k}. **{chart.TITLE}** {chart.sentence(results)}"

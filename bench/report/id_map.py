@@ -7,7 +7,7 @@ import re
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Spread, figure_of, folded, markdown_claims, markdown_row, plain_ticks, power,
+from .page import (INK, Claim, Spread, figure_of, folded, markdown_row, plain_ticks, power,
                    quotient, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -611,7 +611,6 @@ def markdown(results):
     for count in results.counts():
         held = [results.memory.get(("uniform", count, 8, s)) for s in columns]
         lines.append(markdown_row(["bytes per particle", power(count), *(figure_of(v) if v else "" for v in held), ""]))
-    lines += markdown_claims(all_claims(results))
     lines += [""] + [f"- {choice_sentence(results, n, what, o)}"
                      for n in results.counts() for what, o in CHOICES.items()]
     return "\n".join(lines) + "\n"

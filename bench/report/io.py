@@ -3,7 +3,7 @@
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Spread, figure_cell, figure_of, listed, markdown_claims, markdown_row, power,
+from .page import (INK, Claim, Spread, figure_cell, figure_of, listed, markdown_row, power,
                    quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
@@ -232,5 +232,4 @@ def markdown(results):
             cells = [figure_of(rate) if rate else "" for rate in rates]
             cells[1] += f" ({ratio:.1f}x)" if ratio else ""
             lines.append(markdown_row([TASKS[(task, variant)], power(count), *cells]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

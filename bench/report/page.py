@@ -251,7 +251,8 @@ def write_picture(path, figure):
     out = io.StringIO()
     figure.savefig(out, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
     text = out.getvalue()
-    on_white = {INK: "#1c1f23", GRID: "#d8dce2", PAPER: "#ffffff", **{name: light for name, light, _ in PALETTE.values()}}
+    on_white = {INK: "#1c1f23", GRID: "#d8dce2", PAPER: "#ffffff",
+                **{stand_in: light for stand_in, light, _ in PALETTE.values()}}
     for stand_in, shown in on_white.items():
         text = text.replace(stand_in, shown)
     with open(path, "w", encoding="utf-8") as file:

@@ -5,9 +5,12 @@ import os
 import sys
 
 from . import comm, compare, dem, domain, front, id_map, io, store
-from .page import Refusal, appendix, claim_section, context_section, document, plotting
-from .reading import contents_of, room_of
+from .charts import sparsity
+from .page import (FAILS, HOLDS, NOISY, Refusal, appendix, claim_section, context_section, document, listed,
+                   markdown_claims, plotting, write_picture)
+from .reading import contents_of, files_of, room_of
 
+README_CHARTS = {"id": sparsity.readme_chart, "dem": dem.readme_chart}
 ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io, "comm": comm, "dem": dem}  # in the order of the page
 
 
@@ -17,7 +20,7 @@ class Figures:
     def __init__(self, paths):
         self.results = {name: room.Results() for name, room in ROOMS.items()}
         self.contexts = []
-        for path in paths:
+        for path in (file for path in paths for file in files_of(path)):
             self.read(path)
         self.results = {name: results for name, results in self.results.items() if not results.is_empty()}
 
@@ -67,10 +70,12 @@ def write(path, text):
 def main(description):
     parser = argparse.ArgumentParser(prog="report.py", description=description)
     parser.add_argument("results", nargs="*", metavar="RESULT.json",
-                        help="of a program of bench/; .json.gz is read as well")
+                        help="of a program of bench/; .json.gz is read as well; or a folder of them")
     parser.add_argument("-o", "--out", default="bench/out/report.html", help="the page (default: %(default)s)")
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument("--markdown", action="store_true", help="print tables for the README instead of a page")
+    instead.add_argument("--sentences", action="store_true", help="print what each chart says, for the README")
+    instead.add_argument("--shortfalls", action="store_true", help="print which claims fail, for the README")
     instead.add_argument("--picture", metavar="FILE.svg",
                          help="draw the chart of the README instead of a page, of the first room that has figures")
     instead.add_argument("--compare", nargs=2, metavar=("OLD", "NEW"),
@@ -92,8 +97,22 @@ def main(description):
             sys.stdout.write("\n".join(room.markdown(results) for room, results in figures.rooms()))
             return 0
         if arguments.picture:
-            room, results = figures.rooms()[0]
-            room.readme_picture(results, arguments.picture, plotting())
+            name, results = next(iter(figures.results.items()))
+            if name not in README_CHARTS:
+                raise Refusal(f"no chart of the room {name} for the README; there are those of {listed(README_CHARTS)}")
+            write_picture(arguments.picture, README_CHARTS[name](results, plotting()))
+            return 0
+        if arguments.sentences:
+            sys.stdout.write("".join(f"{line}\n" for line in front.sentences(figures)))
+            return 0
+        if arguments.shortfalls:
+            claims = [claim for room, results in figures.rooms() for claim in room.all_claims(results)]
+            short = [claim for claim in claims if claim.verdict() == FAILS]
+            held = sum(claim.verdict() == HOLDS for claim in claims)
+            noisy = sum(claim.verdict() == NOISY for claim in claims)
+            count = held + noisy + len(short)
+            sys.stdout.write(f"Of {count} claims with a target {held} hold, {noisy} are too noisy to tell, and "
+                             f"{len(short)} fail:\n" + "\n".join(markdown_claims(short)) + "\n")
             return 0
         write(arguments.out, page(figures))
     except (Refusal, OSError) as fault:

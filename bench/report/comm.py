@@ -5,7 +5,7 @@ import itertools
 import math
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, figure_cell, figure_of, markdown_claims, markdown_row, middle, plain_ticks,
+from .page import (INK, Claim, Refusal, figure_cell, figure_of, markdown_row, middle, plain_ticks,
                    power, quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
@@ -320,14 +320,6 @@ def model_chart(results, which, label, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """On white: for pages that show pictures as they are."""
-    if not results.percents():
-        raise Refusal("no migration in these results: nothing to draw")
-    figure = migrate_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-
-
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
 
@@ -496,5 +488,4 @@ def markdown(results):
         times = [results.time(task, variant, name) for name in (*names, "hand", "raw")]
         if times[0]:
             lines.append(markdown_row([label, *(figure_of(t) if t else "" for t in times)]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

@@ -3,13 +3,11 @@
 
 A row differs if the intervals in which its two medians lie, each at 93 % or more, do not overlap. Of rows that are the
 same in truth less than one in a hundred is marked by chance: of a thousand rows expect a few."""
-import glob
 import html
-import os
 from collections import defaultdict
 
 from .page import Refusal, apart, document, figure_of, folded, middle, quotient, table
-from .reading import ROOMS, contents_of, room_of
+from .reading import ROOMS, contents_of, files_of, room_of
 
 FASTER, SLOWER, SAME, TOO_FEW = "faster", "slower", "same", "too few repetitions"
 FEWEST = 3  # repetitions, below which an interval says nothing
@@ -41,16 +39,8 @@ class Run:
         self.contexts = {}                                       # room: that of its first file
         self.costs = defaultdict(lambda: defaultdict(list))      # room: name: [ns]
         self.counted = defaultdict(dict)                         # room: (name, step): fields that are no times
-        for file in self.files():
+        for file in files_of(self.path):
             self.read(file)
-
-    def files(self):
-        if not os.path.isdir(self.path):
-            return [self.path]
-        found = sorted(f for pattern in ("*.json", "*.json.gz") for f in glob.glob(os.path.join(self.path, pattern)))
-        if not found:
-            raise Refusal(f"{self.path}: no figures in this folder (*.json, *.json.gz)")
-        return found
 
     def read(self, file):
         context, rows = contents_of(file)

@@ -4,7 +4,7 @@ import html
 import math
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_cell, figure_of, limits, listed, markdown_claims, markdown_row,
+from .page import (GRID, INK, Claim, Refusal, figure_cell, figure_of, limits, listed, markdown_row,
                    middle, plain_ticks, quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
@@ -223,7 +223,7 @@ def hatched(axes, low, high, upright, label, where=None):
 def guides(axes, start):
     """A fan of the orders from a point on, to the border of the chart on the left."""
     x0, y0 = start
-    left, (bottom, top) = axes.get_xlim()[0], axes.get_ylim()
+    left, top = axes.get_xlim()[0], axes.get_ylim()[1]
     for order in ORDERS:
         end_y = y0 * (left / x0)**(-1 / order)
         end_x = left
@@ -531,16 +531,10 @@ def beside_chart(results, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """On white: for pages that show pictures as they are."""
+def readme_chart(results, pyplot):
     if not results.scenes():
         raise Refusal("no scene beside LAMMPS in these results: nothing to draw")
-    figure = beside_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text.replace(GRID, "#d8dce2"))
+    return beside_chart(results, pyplot)
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -895,5 +889,4 @@ def markdown(results):
                 RUNGS.get(name, name) if number == "double" else f"history, {NUMBERS[number]}",
                 figure_of(results.time("ladder", *rung)), f"{figure_of(ratio)}x" if ratio else "",
                 f"{results.field('bytes', 'ladder', *rung):.0f}"]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

@@ -4,7 +4,7 @@ import html
 import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, power,
+from .page import (GRID, INK, Claim, Spread, figure_of, folded, markdown_row, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -289,14 +289,6 @@ def len_floor(value):
     return int(f"{value:e}".split("e")[1])
 
 
-def readme_picture(results, path, pyplot):
-    """Speed against accuracy, on white: for pages that show pictures as they are."""
-    if not has_accuracy_chart(results):
-        raise Refusal("no wraps and errors of the domain in these results: nothing to draw")
-    figure = accuracy_chart(results, pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-
-
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
 
@@ -449,5 +441,4 @@ def markdown(results):
                 lines.append(markdown_row([label(scalar)] + [
                     error_text(results.errors[c]["error"]) if c in results.errors else
                     "refused" if c in results.refused else "" for c in cells]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

@@ -124,3 +124,11 @@ def chart_links():
 
 def chart_sections(figures, pyplot):
     return "".join(chart_section(figures, k, chart, pyplot) for k, chart in enumerate(CHARTS, 1))
+
+
+def sentences(figures):
+    """A line of a list for each chart that is there."""
+    for k, chart in enumerate(CHARTS, 1):
+        results = figures.results.get(chart.ROOM)
+        if results is not None and chart.is_there(results):
+            yield f"{k}. **{chart.TITLE}** {chart.sentence(results)}"

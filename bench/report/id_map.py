@@ -7,7 +7,7 @@ import re
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, Spread, figure_of, folded, markdown_claims, markdown_row, plain_ticks, power,
+from .page import (INK, Claim, Spread, figure_of, folded, markdown_row, plain_ticks, power,
                    quotient, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -411,30 +411,6 @@ def sweep_chart(results, count, operation, title, unit, pyplot):
     return svg_of(figure, pyplot, f"{title}, {power(count)} particles")
 
 
-def readme_picture(results, path, pyplot):
-    """Batched look-up and rebuild over T/N side by side, on white: for pages that show pictures as they are."""
-    count = max((n for n in results.counts() if n <= 10**6), default=None)
-    if count is None:
-        raise Refusal("no uniform ids of at most 1e6 particles in these results: nothing to draw")
-    ratios = results.ratios(count)
-    figure, pair = pyplot.subplots(1, 2, figsize=(11, 4.2), facecolor="white")
-    for axes, operation in zip(pair, ("find_hit", "rebuild")):
-        for series in drawn_series(results, count, operation):
-            points = [(r, v) for r in ratios if (v := sweep_value(results, count, r, series, operation))]
-            axes.plot(*zip(*points), **style_of(series), zorder=4 if series.startswith(DEFAULT) else 3)
-        axes.set(xscale="log", yscale="log", xlabel="T/N: range of the ids per id", ylabel=OPERATIONS[operation][1])
-        axes.set_xticks(ratios, [power(r) for r in ratios])
-        axes.minorticks_off()
-        plain_ticks(axes.yaxis)
-        axes.grid(True, color="#d5d9dd")
-        for spine in axes.spines.values():
-            spine.set_color("#8a9199")
-        axes.set_title(f"{OPERATIONS[operation][0]}, {power(count)} particles", loc="left")
-    pair[1].legend(loc="center left", bbox_to_anchor=(1.01, .5), frameon=False, fontsize=8, handlelength=3)
-    figure.subplots_adjust(wspace=.2)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-
-
 def pattern_points(results):
     """{N: [patterns]} at T/N = 8, in the order of measurement."""
     found = defaultdict(list)
@@ -635,7 +611,6 @@ def markdown(results):
     for count in results.counts():
         held = [results.memory.get(("uniform", count, 8, s)) for s in columns]
         lines.append(markdown_row(["bytes per particle", power(count), *(figure_of(v) if v else "" for v in held), ""]))
-    lines += markdown_claims(all_claims(results))
     lines += [""] + [f"- {choice_sentence(results, n, what, o)}"
                      for n in results.counts() for what, o in CHOICES.items()]
     return "\n".join(lines) + "\n"

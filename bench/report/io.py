@@ -3,7 +3,7 @@
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, Spread, figure_cell, figure_of, listed, markdown_claims, markdown_row, power,
+from .page import (INK, Claim, Spread, figure_cell, figure_of, listed, markdown_row, power,
                    quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
@@ -138,14 +138,6 @@ def rate_chart(results, count, title, kinds, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """Data files, on white: for pages that show pictures as they are."""
-    if not results.tasks(("read", "write")):
-        raise Refusal("no data files in these results: nothing to draw")
-    figure = rate_chart(results, results.counts()[-1], *CHARTS[0], pyplot)
-    figure.savefig(path, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
-
-
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
 
@@ -240,5 +232,4 @@ def markdown(results):
             cells = [figure_of(rate) if rate else "" for rate in rates]
             cells[1] += f" ({ratio:.1f}x)" if ratio else ""
             lines.append(markdown_row([TASKS[(task, variant)], power(count), *cells]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

@@ -244,6 +244,21 @@ def plotting():
     return pyplot
 
 
+def write_picture(path, figure):
+    """The figure as a file, on white: for pages that show pictures as they are."""
+    import matplotlib
+    matplotlib.rcParams["svg.hashsalt"] = os.path.basename(path)  # the same figures, the same file
+    out = io.StringIO()
+    figure.savefig(out, format="svg", bbox_inches="tight", facecolor="white", metadata={"Date": None})
+    text = out.getvalue()
+    on_white = {INK: "#1c1f23", GRID: "#d8dce2", PAPER: "#ffffff",
+                **{stand_in: light for stand_in, light, _ in PALETTE.values()}}
+    for stand_in, shown in on_white.items():
+        text = text.replace(stand_in, shown)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 def svg_of(figure, pyplot, title, cropped=True):
     """The figure as an element of the page: scales with it, takes its colours."""
     import matplotlib

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Reads the files that the programs of bench/ write."""
+import glob
 import gzip
 import json
+import os
 
 from .page import Refusal
 
@@ -26,6 +28,16 @@ class RoomResults:
 def room_of(rows):
     """Rows begin with the name of their room, but for those of the id maps, which begin with a pattern of ids."""
     return next((name for name in ROOMS if any(row["name"].startswith(name + "/") for row in rows)), "id")
+
+
+def files_of(path):
+    """The file, or those of a folder."""
+    if not os.path.isdir(path):
+        return [path]
+    found = sorted(f for pattern in ("*.json", "*.json.gz") for f in glob.glob(os.path.join(path, pattern)))
+    if not found:
+        raise Refusal(f"{path}: no figures in this folder (*.json, *.json.gz)")
+    return found
 
 
 def contents_of(path):

@@ -2,7 +2,7 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Refusal, figure_of, folded, listed, markdown_claims, markdown_row, middle, power,
+from .page import (GRID, INK, Claim, figure_of, folded, listed, markdown_row, middle, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
@@ -293,14 +293,6 @@ def append_chart(results, pyplot):
     return figure
 
 
-def readme_picture(results, path, pyplot):
-    """Store / by hand, on white: for pages that show pictures as they are."""
-    if not results.pairs:
-        raise Refusal("no pairs of the store in these results: nothing to draw")
-    ratio_chart(results, pyplot).savefig(path, format="svg", bbox_inches="tight", facecolor="white",
-                                         metadata={"Date": None})
-
-
 # ---------------------------------------------------------------------------------------------------------------
 # Which layout when
 
@@ -545,5 +537,4 @@ def markdown(results):
             for order, (name, _) in ORDERS.items():
                 cells = [figure_of(t) if (t := results.gather(layout, order, n)) else "" for n in counts]
                 lines.append(markdown_row([f"`{label(layout)}`", name, *cells]))
-    lines += markdown_claims(all_claims(results))
     return "\n".join(lines) + "\n"

@@ -109,6 +109,12 @@ void work_is_balanced(Transport& on, Check&& check) {
               static_cast<void>(tsubu::balanced_bricks(on, box, {1, 1, ranks}, g.owned()[tsubu::position<3>], costs));
           }) != "nothing was thrown",
           "bricks: a weight that is no number is refused on all");
+    auto too_few = costs_of(g);
+    if (on.rank() == 0) too_few.push_back(1);
+    const auto miscounted = thrown<tsubu::error>(
+        [&] { static_cast<void>(tsubu::balanced_parts(on, box, g.owned()[tsubu::position<3>], too_few)); });
+    check(says(miscounted, on.rank() == 0 ? "give one for each owned particle" : "rank 0 refused the input"),
+          "weights: one for each particle");
     const auto some = on.rank() == 0 ? std::vector<double>() : costs_of(g);
     for (const bool asks_for_bricks : {true, false}) {
         const auto mixed = refuses([&] {

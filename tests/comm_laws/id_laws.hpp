@@ -202,6 +202,14 @@ void ids_are_served(Transport& on, Check&& check) {
         duplicates_are_told(on, seed, check);
     }
     ids_lie_in_a_row(on, check);
+    // There is no number for the last one.
+    const auto before = 2 * static_cast<std::int32_t>(on.rank());
+    const std::vector<std::int32_t> short_ids{before, before + 1};
+    const auto top = std::numeric_limits<std::int32_t>::max() - 2 * static_cast<std::int32_t>(on.ranks()) + 1;
+    check(tsubu::renumbered(on, short_ids, top)[1] == top + before + 1, "renumbered: up to the last of the type");
+    check(thrown<tsubu::limit_error>([&] { static_cast<void>(tsubu::renumbered(on, short_ids, top + 1)); }) !=
+              "nothing was thrown",
+          "renumbered: refused past the type");
     std::vector<std::int64_t> ids{5, 6};
     if (on.rank() + 1 == on.ranks()) ids[1] = -3;
     const std::span<const std::int64_t> negative(ids);

@@ -409,6 +409,64 @@ TEST_CASE("a box that is none is refused", "[io][h5md]") {
                    static_cast<void>(f.group("/particles/all/box"));
                }),
                "there is no attribute dimension"));
+
+    using tsubu::detail::hdf5_object;
+    const auto with_attribute = [&](const char* name, auto&& put) {
+        return told([&](const changed& f) {
+            const hdf5_object group(H5Gopen2(f.file.get(), "/particles/all/box", H5P_DEFAULT));
+            REQUIRE(H5Adelete(group.get(), name) >= 0);
+            put(group);
+        });
+    };
+    CHECK(says(with_attribute("dimension",
+                              [](const hdf5_object& of) { changed::attribute<std::int64_t>(of, "dimension", {4}); }),
+               "dimension and boundary do not tell of a box of 1, 2 or 3 dimensions"));
+    CHECK(says(with_attribute("dimension",
+                              [](const hdf5_object& of) { changed::attribute<double>(of, "dimension", {3}); }),
+               "the attribute dimension is float64, no whole number"));
+    CHECK(says(with_attribute("dimension",
+                              [](const hdf5_object& of) {
+                                  changed::attribute(of, "dimension", std::vector<std::int64_t>(65, 3));
+                              }),
+               "the attribute dimension has 65 values"));
+    CHECK(says(with_attribute("boundary",
+                              [](const hdf5_object& of) { changed::attribute<std::int64_t>(of, "boundary", {1, 1, 1}); }),
+               "the attribute boundary is int64, where a text is wanted"));
+    CHECK(says(with_attribute("boundary",
+                              [](const hdf5_object& of) {
+                                  const hdf5_object text(H5Tcopy(H5T_C_S1));
+                                  REQUIRE(H5Tset_size(text.get(), 5) >= 0);
+                                  const hsize_t count = 3;
+                                  const hdf5_object space(H5Screate_simple(1, &count, nullptr));
+                                  const hdf5_object made(H5Acreate2(of.get(), "boundary", text.get(), space.get(),
+                                                                    H5P_DEFAULT, H5P_DEFAULT));
+                                  REQUIRE(H5Awrite(made.get(), text.get(), "none\0open none\0") >= 0);
+                              }),
+               "the boundary is 'open'; H5MD knows periodic and none"));
+    CHECK(says(told([](const changed& f) {
+                   f.remove("/particles/all/box/upper");
+                   f.dataset<double>("/particles/all/box/upper", {2}, {1, 1});
+               }),
+               "a corner of 2 numbers in 3 dimensions; leave out lower and upper"));
+}
+TEST_CASE("a dataset where the particles should be is refused", "[io][h5md]") {
+    const scratch_folder folder;
+    const auto path = good_file(folder);
+    {
+        const changed file(path);
+        file.remove("/particles/all");
+        file.dataset<double>("/particles/all", {2}, {1, 2});
+    }
+    CHECK(says(refusal(path), "/particles/all: this is no group; check that the file is H5MD"));
+}
+TEST_CASE("types of HDF5 that no field has are told in words", "[io][h5md]") {
+    const auto told = [](hid_t type) { return tsubu::detail::hdf5_kind::of(type).text(); };
+    using tsubu::detail::hdf5_object;
+    CHECK(told(H5T_C_S1) == "text");
+    CHECK(told(H5T_STD_REF_OBJ) == "references");
+    CHECK(told(H5T_NATIVE_B8) == "another type");
+    const hdf5_object record(H5Tcreate(H5T_COMPOUND, 16));
+    CHECK(told(record.get()) == "records");
 }
 TEST_CASE("a group where a dataset is wanted, and steps that are none, are refused", "[io][h5md]") {
     const scratch_folder folder;

@@ -7,6 +7,7 @@
 
 #include "in_world.hpp"
 #include "support/counted_memory.hpp"
+#include "unit/thrown.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,8 +33,41 @@ struct half_of_the_world {
     ~half_of_the_world() { MPI_Comm_free(&comm); }
 };
 
+/// Before main, and so before MPI_Init.
+const auto before_mpi = thrown<tsubu::input_error>([] { tsubu::mpi_transport on(MPI_COMM_WORLD); });
+
 }  // namespace
 
+TEST_CASE("a transport is made while MPI runs, over ranks of one group", "[comm][mpi][input]") {
+    INFO(before_mpi);
+    CHECK(says(before_mpi, "MPI is not running; call it between MPI_Init and MPI_Finalize"));
+    int rank = 0;
+    int size = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (size < 2) return;
+    MPI_Comm mine = MPI_COMM_NULL;
+    MPI_Comm between = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, rank % 2, rank, &mine);
+    MPI_Intercomm_create(mine, 0, MPI_COMM_WORLD, 1 - rank % 2, 0, &between);
+    const auto text = thrown<tsubu::input_error>([&] { tsubu::mpi_transport on(between); });
+    CHECK(says(text, "the communicator is an intercommunicator; merge it with MPI_Intercomm_merge"));
+    MPI_Comm_free(&between);
+    MPI_Comm_free(&mine);
+}
+TEST_CASE("counts past those of MPI are refused on all ranks", "[comm][mpi][input]") {
+    tsubu::mpi_transport on(MPI_COMM_WORLD);
+    // Never looked at.
+    std::uint64_t word = 0;
+    double number = 0;
+    const std::size_t many = std::size_t{1} << 31;
+    CHECK(says(thrown<tsubu::limit_error>([&] { on.reduce(std::span(&number, many), tsubu::reduction::sum); }),
+               "mpi_transport::reduce: 2147483648 numbers to reduce; give fewer than 2^31"));
+    const auto mine = on.rank() + 1 == on.ranks() ? many : 1;
+    CHECK(says(thrown<tsubu::limit_error>([&] { static_cast<void>(on.gather(std::span(&word, mine))); }),
+               "words from all ranks; gather fewer than 2^31"));
+    CHECK(on.sum_before(1) == on.rank());
+}
 TEST_CASE("MPI keeps all laws of a transport", "[comm][mpi][conformance]") {
     check_in_world([](auto& on, verdict& seen) { check_transport(on, 5, 60, seen); });
 }

@@ -37,7 +37,8 @@ if(WAY STREQUAL "places")
     file(COPY "${SOURCE}/tests/package/find_package/" DESTINATION "${mine}")
     file(COPY_FILE "${SOURCE}/tests/readme/first.cpp" "${mine}/main.cpp")
     foreach(place IN ITEMS "-DCMAKE_INSTALL_INCLUDEDIR=include/tsubu-1"
-        "-DCMAKE_INSTALL_INCLUDEDIR=${work}/other/include" "-DCMAKE_INSTALL_DATADIR=lib64/share" "-DCMAKE_INSTALL_DATADIR=${work}/other/share")
+        "-DCMAKE_INSTALL_INCLUDEDIR=${work}/other/include" "-DCMAKE_INSTALL_DATADIR=lib64/share"
+        "-DCMAKE_INSTALL_DATADIR=${work}/other/share")
         file(REMOVE_RECURSE "${work}/prefix" "${work}/other" "${work}/library" "${mine}/build")
         run("${CMAKE_COMMAND}" "-DCMAKE_CXX_COMPILER=${COMPILER}" -DTSUBU_BUILD_TESTS=OFF "${place}"
             "-DCMAKE_INSTALL_PREFIX=${work}/prefix" -S "${SOURCE}" -B "${work}/library")

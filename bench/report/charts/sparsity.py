@@ -3,7 +3,7 @@
 from ..drawing import Look, label_at, label_ends, legend, mark_upright, new_panel, panel, panels, tables
 from ..id_map import DEFAULT, OPERATIONS, OWN, RIVALS, crossings, sweep_table, sweep_value
 from ..id_map import label as long_label
-from ..page import apart, figure_of, limits, plain_ticks, power, quotient, runs_of_choice, spans_text
+from ..page import Refusal, apart, figure_of, limits, plain_ticks, power, quotient, runs_of_choice, spans_text
 
 ROOM = "id"
 TITLE = "Which table for which ids?"
@@ -45,8 +45,8 @@ def value_of(results, count, ratio, series, measure):
     return sweep_value(results, count, ratio, series, measure)
 
 
-def sweep_panel(results, count, measure, pyplot):
-    figure, axes = new_panel(pyplot)
+def draw_sweep(axes, results, count, measure, marked=2):
+    """With the first `marked` crossings of our own tables."""
     ratios = results.ratios(count)
     ends = []
     for series, look in known(results).items():
@@ -66,12 +66,31 @@ def sweep_panel(results, count, measure, pyplot):
     axes.set_xticks(ratios, [power(r) for r in ratios])
     axes.minorticks_off()
     plain_ticks(axes.yaxis)
-    meetings = sorted(crossings(results, count, None if measure == "memory" else measure))[:2]
+    meetings = sorted(crossings(results, count, None if measure == "memory" else measure))[:marked]
     for k, (x, before, after) in enumerate(meetings):
         mark_upright(axes, x, f"{LOOKS[before].short} → {LOOKS[after].short} at {figure_of(x)}", row=k, side="left",
                      line=(0, (1, 3)))
     label_ends(axes, ends)
+
+
+def sweep_panel(results, count, measure, pyplot):
+    figure, axes = new_panel(pyplot)
+    draw_sweep(axes, results, count, measure)
     return panel(figure, pyplot, f"{MEASURES[measure]}: {power(count)} particles")
+
+
+def readme_chart(results, pyplot):
+    """Batched look-up and rebuild at the largest size up to 1e6, side by side."""
+    count = max((n for n in counts_of(results) if n <= 10**6), default=None)
+    if count is None:
+        raise Refusal("no uniform ids of at most 1e6 particles in these results: nothing to draw")
+    figure, pair = pyplot.subplots(1, 2, figsize=(10.4, 3.6), gridspec_kw={"wspace": .42})
+    for axes, measure in zip(pair, ("find_hit", "rebuild")):
+        axes.grid(True)
+        draw_sweep(axes, results, count, measure, marked=0)
+        axes.set_xlabel("T/N: range of the ids by their number")
+        axes.set_title(f"{MEASURES[measure]}: {power(count)} particles", loc="left")
+    return figure
 
 
 def drawn(results, pyplot):

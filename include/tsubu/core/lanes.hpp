@@ -168,7 +168,7 @@ template <class Real, std::size_t Bytes>
 /// Correctly rounded, as std::sqrt.
 template <class Real, std::size_t Bytes>
 [[nodiscard, gnu::always_inline]] inline lanes<Real, Bytes> sqrt(const lanes<Real, Bytes>& a) noexcept {
-    using native = typename lanes<Real, Bytes>::native;
+    using native [[maybe_unused]] = typename lanes<Real, Bytes>::native;
 #if defined(__AVX__)
     if constexpr (Bytes == 32 && sizeof(Real) == 8)
         return native(_mm256_sqrt_pd(a.value));

@@ -130,3 +130,30 @@ TEST_CASE("make_halo on a rank without memory leaves no ghosts anywhere", "[comm
         });
     CHECK(refusals > 10);
 }
+TEST_CASE("lost particles are collected whole, or, where memory is refused, none of them", "[comm][migrate][memory]") {
+    store_type from;
+    for (std::int64_t k = 0; k < 40; ++k) {
+        from.push_back(tsubu::id = k);
+        for (std::int64_t n = 0; n < k; ++n) from[contacts][static_cast<std::size_t>(k)].push_back(n);
+    }
+    const std::vector<tsubu::index_t> lost{3, 17, 39};
+    std::size_t refusals = 0;
+    for (bool is_done = false; !is_done; ++refusals) {
+        store_type into;
+        into.push_back(tsubu::id = 100);
+        const auto before = seen_in(into);
+        granted = refusals;
+        try {
+            tsubu::detail::append_rows(into, from, lost);
+            is_done = true;
+        } catch (const std::bad_alloc&) {
+        }
+        granted = no_limit;
+        const auto after = seen_in(into);
+        if (is_done)
+            CHECK(after == std::vector<std::int64_t>{100, 0, 3, 3, 17, 17, 39, 39});
+        else
+            CHECK(after == before);
+    }
+    CHECK(refusals > 2);
+}

@@ -37,4 +37,7 @@ TEST_CASE("a mailbox has parcels as they came, and sorted those of one sender st
     CHECK(all == std::vector<std::uint64_t>{8, 9, 1, 2, 3, 7});
     CHECK(box[0].words.empty());
     CHECK(box[3].words[0] == 7);
+    auto at = box.begin();
+    CHECK((*at++).rank == 0);
+    CHECK((*at).rank == 1);
 }

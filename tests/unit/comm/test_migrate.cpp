@@ -6,8 +6,10 @@
 #include "comm_laws/migrate_laws.hpp"
 #include "comm_laws/on_ranks.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace {
 
@@ -41,6 +43,29 @@ void check_losses(const Box& box, std::size_t axis) {
 }
 
 }  // namespace
+
+TEST_CASE("leavers are sorted by rank, in their order, for any number of ranks", "[comm][migrate]") {
+    tsubu::message_memory memory;
+    for (const std::size_t ranks : {1U, 2U, 255U, 256U, 257U, 65536U, 65537U, 20'000'000U}) {
+        CAPTURE(ranks);
+        auto all = memory.take<tsubu::detail::leaver>(1000);
+        std::vector<tsubu::detail::leaver> expected;
+        std::uint64_t state = 1;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            state = state * 6364136223846793005U + 1442695040888963407U;
+            // Few ranks, far apart, so that each has several leavers.
+            const auto to = static_cast<tsubu::rank_t>((state >> 33) % 100 * ((ranks + 99) / 100) % ranks);
+            expected.push_back(all[k] = {to, static_cast<tsubu::index_t>(k)});
+        }
+        std::stable_sort(expected.begin(), expected.end(), [](auto& a, auto& b) { return a.to < b.to; });
+        tsubu::detail::sort_by_rank(all, ranks, memory);
+        REQUIRE(all.size() == expected.size());
+        bool is_sorted = true;
+        for (std::size_t k = 0; k < all.size(); ++k)
+            is_sorted = is_sorted && all[k].to == expected[k].to && all[k].index == expected[k].index;
+        CHECK(is_sorted);
+    }
+}
 
 // Layouts and boxes are met in pairs, not in all combinations: what is compiled is dear.
 TEST_CASE("no particle is lost or doubled in boxes with right angles", "[comm][migrate]") {

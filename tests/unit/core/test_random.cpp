@@ -3,8 +3,11 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <random>
+#include <vector>
 
 static_assert(std::uniform_random_bit_generator<tsubu::random_stream>);
 
@@ -29,6 +32,18 @@ TEST_CASE("equal seeds give equal streams, in constant expressions too", "[core]
     random();
     random();
     CHECK(random() == third);
+}
+
+TEST_CASE("the standard library shuffles with the stream, which has all words", "[core]") {
+    CHECK(tsubu::random_stream::min() == 0);
+    CHECK(tsubu::random_stream::max() == ~std::uint64_t{0});
+    tsubu::random_stream random(3);
+    std::vector<int> cards(52);
+    std::iota(cards.begin(), cards.end(), 0);
+    const auto sorted = cards;
+    std::shuffle(cards.begin(), cards.end(), random);
+    CHECK(cards != sorted);
+    CHECK(std::is_permutation(cards.begin(), cards.end(), sorted.begin()));
 }
 
 TEST_CASE("bounded numbers stay in their bounds", "[core]") {

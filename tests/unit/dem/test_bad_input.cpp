@@ -3,6 +3,7 @@
 #include <tsubu/dem/run.hpp>
 
 #include <tsubu/comm/local_transport.hpp>
+#include <tsubu/dem/gravity.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/scenes/chain.hpp>
 #include <tsubu/dem/stability.hpp>
@@ -186,6 +187,17 @@ TEST_CASE("options that cannot be are refused", "[dem][bad_input]") {
                       of.floor.planes[0].normal = {0, 2};
                   }),
                   {"dem::walls", "the normal of wall 0 has the length 2", "give a unit vector"});
+    check_refused(with([](input& of) {
+                      of.floor.planes[0].normal = {0, .6, .8};
+                  }),
+                  {"dem::walls", "the normal of wall 0 has a component 0.8 along axis 2 of a scene in 2 dimensions",
+                   "give a normal in the dimensions of the scene"});
+    check_refused(with([](input& of) {
+                      of.floor.planes.push_back({.point = {0, not_a_number}, .normal = {0, 1}});
+                  }),
+                  {"dem::walls", "the point of wall 1 has a coordinate nan m", "give finite numbers"});
+    const auto falling = thrown<tsubu::input_error>([] { gravity{{0, -infinity}}.check(); });
+    CHECK(says(falling, "dem::gravity: an acceleration of -inf m/s^2; give finite numbers"));
 }
 TEST_CASE("a time step past the limit is refused where contacts tell it", "[dem][bad_input][guards]") {
     // Two overlap by a little: 2 / sqrt(2 k / m), and of the walls none.

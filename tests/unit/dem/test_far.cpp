@@ -9,12 +9,14 @@
 
 #include "support/catch.hpp"
 #include "unit/dem/exact_gas.hpp"
+#include "unit/thrown.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -86,6 +88,19 @@ TEMPLATE_TEST_CASE("on a lattice and in cells the origin does not matter, bit fo
             INFO("origin " << origin << ", ids from " << first_id);
             CHECK(velocities_of_gas<TestType>(origin, first_id) == near);
         }
+}
+TEST_CASE("an offset in a cell that is no number is refused by the id", "[dem][far][bad_input]") {
+    tsubu::self_transport on;
+    exact_gas<hooke<>, in_cells<float>> scene{};
+    scene.law = hooke<>{{2e4}};
+    scene.time_step = 1e-3;
+    scene.per_edge = 4;
+    const auto gas = stage(scene, on);
+    gas->particles()[decltype(scene)::simulation::quantities_type::offset][5][1] = NAN;
+    const auto id = gas->particles()[tsubu::id][5];
+    const auto said = thrown<tsubu::input_error>([&] { gas->start(); });
+    INFO(said);
+    CHECK(says(said, "particle " + std::to_string(id) + " has an offset of nan m; give finite numbers"));
 }
 TEST_CASE("ids do not matter, bit for bit", "[dem][far]") {
     const auto ordinary = velocities_of_gas<double>(0, 1);

@@ -5,6 +5,7 @@
 #include <tsubu/comm/self_transport.hpp>
 #include <tsubu/dem/explicit_euler.hpp>
 #include <tsubu/dem/implicit_velocity_verlet.hpp>
+#include <tsubu/dem/laws/dmt_cohesion.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/pefrl.hpp>
 #include <tsubu/dem/references.hpp>
@@ -239,6 +240,34 @@ TEST_CASE("a ball bounces as its closed form says, time after time", "[dem][refe
         CHECK(static_cast<double>(ball->steps_done()) * h + v / scene.acceleration ==
               Approx(exact.time).epsilon(50 * h));
     }
+}
+TEST_CASE("a ball on a floor that sticks keeps its energy, through contacts that it leaves", "[dem][reference]") {
+    tsubu::self_transport on;
+    const double e_star = 1e7;
+    const double adhesion = 50;
+    const bounce_scene<hertz<dmt_cohesion>> scene{.law = hertz<dmt_cohesion>{{e_star}, {adhesion}}, .time_step = 1e-5};
+    const auto ball = stage(scene, on);
+    const auto energy = [&] { return kinetic_energy(*ball) + elastic_energy(*ball) + gravity_energy(*ball); };
+    const double at_first = energy();
+    CHECK(at_first == Approx(scene.mass * scene.acceleration * scene.height).epsilon(1e-12));
+    double most_lost = 0;
+    double least_elastic = 0;
+    unsigned bounces = 0;
+    bool was_touching = false;
+    for (int n = 0; n < 40000; ++n) {
+        ball->steps(2);
+        most_lost = std::fmax(most_lost, std::abs(energy() - at_first));
+        const double elastic = elastic_energy(*ball);
+        least_elastic = std::fmin(least_elastic, elastic);
+        bounces += elastic != 0 && !was_touching ? 1 : 0;
+        was_touching = elastic != 0;
+    }
+    CHECK(bounces == 2);
+    CHECK(most_lost < 1e-3 * at_first);
+    // Where the pull is as great as the push: F = 4/3 E* sqrt(R) d^1.5, of which the energy is 2/5 F d.
+    const double pull = 2 * pi * adhesion * scene.radius;
+    const double overlap = std::pow(.75 * pull / e_star / std::sqrt(scene.radius), 2. / 3);
+    CHECK(least_elastic == Approx(-.6 * pull * overlap).epsilon(.02));
 }
 TEST_CASE("a ball that loses nothing comes back to where it began", "[dem][reference]") {
     const double h = is_fast ? 2e-5 : 1e-4;

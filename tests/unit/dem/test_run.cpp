@@ -4,6 +4,7 @@
 
 #include <tsubu/comm/local_transport.hpp>
 #include <tsubu/core/random.hpp>
+#include <tsubu/dem/explicit_euler.hpp>
 #include <tsubu/dem/laws/rolling_resistance.hpp>
 #include <tsubu/dem/measure.hpp>
 #include <tsubu/dem/pefrl.hpp>
@@ -290,6 +291,10 @@ TEST_CASE("memory may be reserved while a run goes on", "[dem][run]") {
         row.particles().reserve(10000);
         row.steps(10);
         CHECK(particle_count(row) == 5);
+        // Beside the particles: 8 bytes for each pair, and its history.
+        const auto lists = row.memory_bytes() - row.particles().memory_bytes();
+        CHECK(lists >= row.pairs().size() * (8 + sizeof(tsubu::vec<2>)));
+        CHECK(lists < 100000);
     });
 }
 TEST_CASE("a history that is no number is refused with both ids", "[dem][run][history][bad_input]") {
@@ -307,4 +312,77 @@ TEST_CASE("a history that is no number is refused with both ids", "[dem][run][hi
     INFO(said);
     CHECK(
         says(said, "dem::run::start: particle 3 has a history of nan with 2; give finite numbers, or clear the field"));
+}
+TEST_CASE("a partner that should be near, and is not, is named", "[dem][run][history][bad_input]") {
+    std::string said;
+    tsubu::run_ranks(1, [&](local_transport& on) {
+        auto row = empty_run(on);
+        add_row_and_bystanders(row.particles());
+        row.start();
+        row.keep_history();
+        auto& store = row.particles();
+        for (std::size_t i = 0; i < store.owned_count(); ++i)
+            if (store[tsubu::id][i] == 3) store[contacts][i].begin()->partner = 77;
+        said = thrown<tsubu::input_error>([&] { row.resume(); });
+    });
+    INFO(said);
+    CHECK(says(said, "dem::run::start: particle 3 remembers a contact with 77, which is not near it on this rank"));
+    CHECK(says(said, "insert both of them, or clear the field `contacts`"));
+}
+TEST_CASE("an id that two particles have, and a spin that is no number, are refused on all ranks",
+          "[dem][run][bad_input]") {
+    for (const bool is_twice : {true, false}) {
+        std::vector<std::string> said(2);
+        tsubu::run_ranks(2, [&](local_transport& on) {
+            auto row = empty_run(on);
+            if (on.rank() == 0) add_row_and_bystanders(row.particles());
+            if (on.rank() == 1) add(row.particles(), is_twice ? 9 : 10, {3, 1}, {0, 0});
+            if (on.rank() == 1 && !is_twice) row.particles()[quantities_type::angular_velocity][0][0] = NAN;
+            said[on.rank()] = thrown<tsubu::input_error>([&] { row.start(); });
+        });
+        INFO(said[0] << '\n' << said[1]);
+        if (is_twice) {
+            CHECK(says(said[0] + said[1], "dem::run::start: 1 ids are given to more than one particle, 9 is one"));
+            CHECK(says(said[0], "give each particle its own"));
+            CHECK(says(said[1], "give each particle its own"));
+        } else {
+            CHECK(says(said[0], "rank 1 refused the input"));
+            CHECK(says(said[1], "particle 10 has an angular velocity of nan rad/s; give finite numbers"));
+        }
+    }
+}
+TEST_CASE("a periodic box that leaves open which image is touched is refused", "[dem][run][history][bad_input]") {
+    const auto said = [](double width) {
+        std::string text;
+        tsubu::run_ranks(1, [&](local_transport& on) {
+            text = thrown<tsubu::input_error>([&] {
+                auto row = make_run<scene>(scene::box_type({0, 0}, {width, 6}, {.periodic = {true, true}}), steady, on,
+                                           law, equal_spheres{.radius = .5, .mass = 1});
+                add(row.particles(), 1, {1, 3}, {0, 0});
+                row.start();
+            });
+        });
+        return text;
+    };
+    // Two diameters and two skins.
+    CHECK(said(2.11) == "nothing was thrown");
+    const auto text = said(2.1);
+    INFO(text);
+    CHECK(says(text, "dem::run: a periodic box of 2.1 m along axis 0, and neighbours up to 1.05 m"));
+    CHECK(says(text, "take a box of more than twice that"));
+}
+TEST_CASE("an integrator that no time step makes stable is refused", "[dem][run][guards][bad_input]") {
+    using growing = simulation<1, double, explicit_euler, hooke<>, equal_spheres>;
+    std::string said;
+    tsubu::run_ranks(1, [&](local_transport& on) {
+        auto two = make_run<growing>(growing::box_type({0}, {12}, {.periodic = {true}}),
+                                     {.time_step = 1e-9, .skin = .05, .guard = {.coordinates = false}}, on,
+                                     hooke<>{{1e4}}, equal_spheres{.radius = .5, .mass = 1});
+        two.particles().push_back(tsubu::id = 1, tsubu::position<1> = {5});
+        two.particles().push_back(tsubu::id = 2, tsubu::position<1> = {5.9});
+        said = thrown<tsubu::input_error>([&] { two.start(); });
+    });
+    INFO(said);
+    CHECK(says(said, "no time step is stable with this integrator and contacts without damping"));
+    CHECK(says(said, "take velocity_verlet"));
 }

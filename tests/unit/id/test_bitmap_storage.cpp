@@ -144,6 +144,9 @@ TEST_CASE("an erased id can come back, and many erased ones take no room for eve
     storage.assign(11, 8);
     CHECK(storage.find(11) == 8);
     CHECK(storage.size() == 3);
+    storage.assign(11, 9);
+    CHECK(storage.find(11) == 9);
+    CHECK(storage.size() == 3);
     for (index_t k = 0; k < 100'000; ++k) {  // three ids at a time
         storage.assign(13 + k, 3 + k);
         CHECK(storage.erase(10 + k));
@@ -244,4 +247,14 @@ TEST_CASE("a copy of a bitmap_storage is independent, and what was moved from is
     copy.assign(70'000, 3);
     CHECK(copy.find(70'000) == 3);
     CHECK(moved.find(70'000) == absent);
+}
+
+TEST_CASE("the ids of a bitmap are walked in order, each with its index", "[id][bitmap_storage]") {
+    bitmap_storage<> storage;
+    build<bitmap_storage<>>(storage, {500, 7, 63, 64, 7});
+    storage.assign(1, 9);
+    CHECK(storage.erase(63));
+    std::vector<std::pair<std::int64_t, index_t>> walked;
+    storage.for_each([&](std::int64_t id, index_t index) { walked.emplace_back(id, index); });
+    CHECK(walked == std::vector<std::pair<std::int64_t, index_t>>{{1, 9}, {7, 1}, {64, 3}, {500, 0}});
 }

@@ -402,3 +402,25 @@ TEST_CASE("what was reserved stays through small rebuilds", "[id][flat_storage]"
     build(unreserved, ids_t{4, 7, 4});
     CHECK(unreserved.memory_bytes() < reserved / 8);
 }
+
+TEST_CASE("the ids of a flat table are walked, each once with its index, wherever it lies", "[id][flat_storage]") {
+    // Few, many in small lines, and a range that leaves no room for the index in a line.
+    for (const auto& ids : {ids_t{5}, ids_t{-3, 900, 7, 900}, [] {
+                                ids_t wide(3000);
+                                for (std::size_t k = 0; k < wide.size(); ++k)
+                                    wide[k] = static_cast<std::int64_t>(k * k) * 1'000'000'007 - 5;
+                                return wide;
+                            }()}) {
+        flat_storage<> storage;
+        build(storage, ids);
+        const oracle<std::int64_t> expected(ids);
+        std::unordered_map<std::int64_t, index_t> walked;
+        std::size_t steps = 0;
+        storage.for_each([&](std::int64_t id, index_t index) {
+            walked[id] = index;
+            ++steps;
+        });
+        CHECK(steps == storage.size());
+        CHECK(walked == expected.first);
+    }
+}

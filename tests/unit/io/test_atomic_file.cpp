@@ -7,12 +7,17 @@
 
 #include <tsubu/io/byte_source.hpp>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -134,6 +139,75 @@ TEST_CASE("the system's refusals are told with name, reason and remedy", "[io][a
     CHECK(says(taken, "cannot write " + (folder / "taken")));
     CHECK(says(taken, "there is a folder with this name"));
     CHECK(folder.files() == 2);
+
+    // The name is given away while the file is written.
+    const auto late = thrown<file_error>([&] {
+        atomic_file file(folder / "late");
+        std::filesystem::create_directory(folder / "late");
+        file.commit();
+    });
+    INFO(late);
+    CHECK(says(late, "cannot give its name to " + (folder / "late")));
+    CHECK(says(late, "there is a folder with this name"));
+    CHECK(folder.files() == 3);
+
+    try {
+        atomic_file(folder / std::string(300, 'x'));
+        FAIL("a name of 300 letters was taken");
+    } catch (const file_error& error) {
+        CHECK(error.code() == ENAMETOOLONG);
+        CHECK(says(error.what(), "give a shorter name"));
+    }
+}
+
+TEST_CASE("each refusal of the system has its remedy", "[io][atomic_file]") {
+    using tsubu::detail::file_remedy;
+    for (const int code : {EACCES, EPERM, EROFS}) CHECK(says(file_remedy(code, false), "allowed to use"));
+    for (const int code : {EMFILE, ENFILE}) CHECK(says(file_remedy(code, false), "ulimit -n"));
+    for (const int code : {ENOSPC, EDQUOT}) CHECK(says(file_remedy(code, false), "free some space"));
+    CHECK(says(file_remedy(EIO, false), "check the disk"));
+}
+
+TEST_CASE("a file that becomes shorter while it is read is refused", "[io][byte_source][input]") {
+    const scratch_folder folder;
+    write_bytes(folder / "a", "0123456789");
+    const tsubu::file_source file(folder / "a");
+    std::array<std::byte, 8> bytes{};
+    file.read(2, bytes);
+    CHECK(bytes[7] == std::byte{'9'});
+    REQUIRE(::truncate((folder / "a").c_str(), 5) == 0);
+    const auto message = thrown<tsubu::input_error>([&] { file.read(2, bytes); });
+    INFO(message);
+    CHECK(says(message, (folder / "a") + " ends at byte 5; it became shorter while it was read"));
+}
+TEST_CASE("memory is not read beyond its end", "[io][byte_source]") {
+    const tsubu::memory_source source(std::string_view("0123456789"), "text");
+    std::array<std::byte, 4> bytes{};
+    source.read(6, bytes);
+    CHECK(bytes[3] == std::byte{'9'});
+    CHECK(says(thrown<tsubu::input_error>([&] { source.read(7, bytes); }), "text has 10 bytes; asked for 4 from 7 on"));
+    CHECK(says(thrown<tsubu::input_error>([&] { source.read(~std::uint64_t{0}, bytes); }), "asked for 4 from"));
+}
+TEST_CASE("files that are moved are open once", "[io][byte_source][atomic_file]") {
+    const scratch_folder folder;
+    write_bytes(folder / "a", "a");
+    write_bytes(folder / "b", "of b");
+    tsubu::file_source first(folder / "a");
+    first = tsubu::file_source(folder / "b");
+    CHECK(first.name() == folder / "b");
+    CHECK(first.size() == 4);
+    const auto second = std::move(first);
+    std::array<std::byte, 4> bytes{};
+    second.read(0, bytes);
+    CHECK(bytes[3] == std::byte{'b'});
+
+    tsubu::file_writer out(folder / "a");
+    out = tsubu::file_writer(folder / "b");
+    auto last = std::move(out);
+    last.write_at(0, std::as_bytes(std::span("in", 2)));
+    last.close();
+    CHECK(bytes_of(folder / "a") == "a");
+    CHECK(bytes_of(folder / "b") == "in b");
 }
 
 TEST_CASE("a full disk is told, and nothing is left on it", "[io][atomic_file][input]") {

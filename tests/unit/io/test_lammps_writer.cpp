@@ -356,6 +356,14 @@ TEST_CASE("what a file cannot tell is refused", "[io][lammps_writer]") {
                "a box"));
     auto top = unit_box;
     top.atoms.types = 2;
+    full_store<> of_one_type;
+    for (const std::int64_t k : {1, 2}) of_one_type.push_back(tsubu::id = k, tsubu::species = 2, tsubu::mass = 1.0);
+    CHECK(says(thrown<input_error>([&] { text_of(of_one_type, top); }),
+               "no particle tells the mass of type 1; give the masses in the header"));
+    top.masses = {1, 1};
+    top.tilt = vec<3>{0.5, infinity, 0};
+    CHECK(says(thrown<input_error>([&] { text_of(none, top); }), "a tilt of (0.5, inf, 0); give finite ones"));
+    top.tilt.reset();
     top.masses = {1};
     CHECK(says(thrown<input_error>([&] { text_of(none, top); }), "1 masses of 2 types"));
     top.masses = {1, 0};

@@ -71,6 +71,10 @@ std::vector<cloud<D, Real>> clouds() {
     all.push_back({"none", {}, 1});
     all.push_back({"one", {spread[0]}, 1});
     all.push_back({"random", spread, 1});
+    auto uneven = spread;  // as many cells along no two axes
+    for (auto& at : uneven)
+        for (std::size_t k = 0; k < D; ++k) at[k] *= static_cast<Real>(std::pow(2.0, static_cast<double>(k) - 1));
+    all.push_back({"random, as long along no two axes", uneven, 1});
     all.push_back({"random, all in one cell", spread, 1000});
     // More than there is room for at first, and stretches of more than a chunk.
     all.push_back({"many in few cells", scattered<D, Real>(1200, 2, 7), 0.9});

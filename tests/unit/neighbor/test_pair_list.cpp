@@ -202,6 +202,10 @@ TEST_CASE("what is refused is named, and the list stays", "[neighbor][pair_list]
     CHECK(says(refused(x, 2, 1e200), "1e+200, of which the square"));
     CHECK(says(refused(points<1, float>{{0}, {1e-25F}}, 2, 1e-24), "1e-24, of which the square"));
     CHECK(says(refused(x, 5, 1), "5 owned particles of 4"));
+    CHECK(says(thrown<tsubu::limit_error>([] {
+                   tsubu::detail::check_list<double>("pair_list::build", std::size_t{1} << 31, 0, 1);
+               }),
+               "2147483648 particles on one rank; take more ranks"));
     CHECK(says(refused(points<1, double>{{-1.5e308}, {1.5e308}}, 2, 1), "coordinate 0 from -1.5e+308 to 1.5e+308"));
     CHECK(near_points::difference(list, before) == "");
 }

@@ -154,6 +154,7 @@ TEST_CASE("ranks agree on what is due, and on what was too late", "[neighbor][sk
         }
 }
 
+TEST_CASE("a watch tells its skin", "[neighbor][skin_watch]") { CHECK(tsubu::skin_watch(.3).skin() == .3); }
 TEST_CASE("a skin that is none is named", "[neighbor][skin_watch]") {
     const auto refused = [](double skin, unsigned every) {
         return thrown<tsubu::input_error>([&] { static_cast<void>(tsubu::skin_watch(skin, every)); });

@@ -333,6 +333,10 @@ TEST_CASE("ids that no particle can have are refused, or found nowhere", "[store
     where.rebuild(std::vector<std::int32_t>{7, 9});
     using rules = tsubu::topology<tsubu::bonds, tsubu::newton_on>;
     CHECK(says(thrown<tsubu::input_error>([&] { rules::insert(g, where, {1, {7, -9}}); }), "particle -9"));
+    for (const std::int64_t type : {std::int64_t{1} << 31, -(std::int64_t{1} << 31)}) {
+        const auto text = thrown<tsubu::input_error>([&] { rules::insert(g, where, {type, {7, 9}}); });
+        CHECK(says(text, "type " + std::to_string(type) + " in bonds {7, 9}; types go up to 2^31 - 1"));
+    }
     const std::int64_t beyond = (std::int64_t{1} << 32) + 7;
     CHECK(rules::insert(g, where, {1, {beyond, 9}}) == 0);
     g[tsubu::bonds][0].push_back({1, {beyond, 9}});

@@ -15,21 +15,14 @@
 
 namespace tsubu::detail {
 
-/// @param work  what this rank does; may throw anything. If it returns a number, the sum over all ranks is returned.
+/// @param work  what this rank does; may throw anything.
 /// Collective: yes; one reduction.
 template <transport Transport, class Work>
-auto agreed(Transport& on, const char* where, Work&& work) {
-    constexpr bool sums = !std::is_void_v<std::invoke_result_t<Work>>;
-    agreement<sums ? 1 : 0> all(on.rank());
-    all.attempt([&] {
-        if constexpr (sums)
-            all[0] = std::forward<Work>(work)();
-        else
-            std::forward<Work>(work)();
-    });
+void agreed(Transport& on, const char* where, Work&& work) {
+    agreement<> all(on.rank());
+    all.attempt(std::forward<Work>(work));
     on.reduce(all.words(), reduction::sum);
     all.settle(where);
-    if constexpr (sums) return std::uint64_t{all[0]};
 }
 /// The same for what is done with a word or more of each rank: take(mailbox).
 /// Collective: yes; a gather and one reduction.

@@ -31,8 +31,15 @@ template <class Box>
 concept turning_box = requires(const Box& where, const vec<Box::dimension, typename Box::scalar_type>& v,
                                const image_shift<Box::dimension>& shift) { where.rotate(v, shift); };
 
+/// Whether an image has another value at all. A lattice has no numbers outside the box: minimum_image finds the image.
+template <class Field, class Box>
+inline constexpr bool changes_in_image =
+    (Field::traits.image == under_image::translates && !is_lattice<typename Box::scalar_type>) ||
+    (Field::traits.image == under_image::rotates && turning_box<Box>);
+
 /// The value of a field in an image.
 template <class Field, class Box>
+    requires(changes_in_image<Field, Box>)
 [[nodiscard]] typename Field::value_type value_in_image(const Box& where, const typename Field::value_type& value,
                                                         const image_shift<Box::dimension>& shift) {
     using value_type = typename Field::value_type;
@@ -40,23 +47,13 @@ template <class Field, class Box>
     if constexpr (Field::traits.image == under_image::translates) {
         static_assert(std::is_same_v<value_type, vec<D, typename Box::scalar_type>>,
                       "a field that moves with images has the type of a position in the box");
-        if constexpr (is_lattice<typename Box::scalar_type>)
-            return value;  // it has no numbers outside the box: minimum_image finds the image
-        else
-            return where.image(value, shift);
-    } else if constexpr (Field::traits.image == under_image::rotates && turning_box<Box>) {
+        return where.image(value, shift);
+    } else {
         static_assert(std::is_same_v<value_type, vec<D, typename Box::scalar_type>>,
                       "a field that turns with images is a vector of as many numbers as the box has dimensions");
         return where.rotate(value, shift);
-    } else {
-        return value;
     }
 }
-/// Whether an image has another value at all.
-template <class Field, class Box>
-inline constexpr bool changes_in_image =
-    (Field::traits.image == under_image::translates && !is_lattice<typename Box::scalar_type>) ||
-    (Field::traits.image == under_image::rotates && turning_box<Box>);
 
 /// The position that decides, and what a wrap does to all fields of a particle.
 template <class Store, class Box>

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Two runs side by side: what became faster or slower beyond the noise.
 
-A row differs if the intervals in which its two medians lie, each at 93 % or more, do not overlap. Of rows that are the
-same in truth less than one in a hundred is marked by chance: of a thousand rows expect a few."""
+A row differs if the intervals in which its two medians lie, each at 93 % or more, do not overlap. That is the noise
+within a run. Between runs a machine drifts besides: other pages of memory, other neighbours. What it does to code that
+is none of the library's, the rivals and plain loops that were measured in the same runs, tells how much: a change that
+is no greater than most of theirs has a mark of its own."""
 import html
 from collections import defaultdict
 
@@ -16,6 +18,10 @@ SHOWN = 40  # changed rows of a room on the terminal; the files have all
 TIMES = {"real_time", "cpu_time", "items_per_second", "bytes_per_second", "iterations", "repetition_index", "store_ns",
          "by_hand_ns", "ratio", "ns_per_append", "nanoseconds", "nanoseconds_per_second", "resident", "time_unit",
          "run_type", "name"}
+# Whoever is named by one of these in a row is none of the library's code
+RIVALS = {"std_unordered_map", "boost_flat_map", "absl_flat_hash_map", "absl_prefetched", "oracle", "plain_array",
+          "plain_read", "std_vector", "fscanf", "fprintf", "plain", "hand", "raw", "reduction", "lammps", "lanes"}
+FEWEST_RIVALS = 5  # rows, below which they say nothing about the machine
 LOUD = (("machine", "machines"), ("instruction_set", "instruction sets"), ("cores", "numbers of cores"))
 QUIET = (("compiler", "compiler"), ("flags", "flags"), ("commit", "commit"), ("extent", "extent"), ("date", "date"))
 
@@ -64,6 +70,8 @@ class Run:
 class Row:
     def __init__(self, name, old, new):
         self.name, self.old, self.new = name, middle(old), middle(new)
+        self.is_rival = not RIVALS.isdisjoint(name.split("/"))
+        self.is_drift = False  # no greater a change than most rivals have
         self.ratio = quotient(self.old, self.new)
         if min(len(old), len(new)) < FEWEST:
             self.mark = TOO_FEW
@@ -75,12 +83,20 @@ class Row:
     def texts(self):
         """(name, old, new, old / new, mark)"""
         spread = lambda t: f"{figure_of(t)} ({figure_of(t.low)}–{figure_of(t.high)})"
-        return self.name, spread(self.old), spread(self.new), f"{self.ratio:.2f}", self.mark
+        return self.name, spread(self.old), spread(self.new), f"{self.ratio:.2f}", self.mark + self.note()
+
+    def note(self):
+        if self.mark not in (FASTER, SLOWER):
+            return ""
+        return ", a rival" if self.is_rival else ", as rivals are" if self.is_drift else ""
 
 
 class Room:
     def __init__(self, old_costs, new_costs, old_counted, new_counted):
         self.rows = [Row(name, old_costs[name], new_costs[name]) for name in old_costs if name in new_costs]
+        self.drift = drift_of([row.ratio for row in self.rows if row.is_rival])
+        for row in self.rows:
+            row.is_drift = self.drift is not None and self.drift[0] <= row.ratio <= self.drift[1]
         self.only_old = [name for name in old_costs if name not in new_costs]
         self.only_new = [name for name in new_costs if name not in old_costs]
         both = [key for key in old_counted if key in new_counted]
@@ -89,9 +105,9 @@ class Room:
         self.same_counts = len(both) - len(different)
 
     def changed(self):
-        """The greatest change first."""
+        """What is beyond the machine's drift first, the greatest change first; rivals last."""
         found = [row for row in self.rows if row.mark in (FASTER, SLOWER)]
-        return sorted(found, key=lambda row: -max(row.ratio, 1 / row.ratio))
+        return sorted(found, key=lambda row: (row.is_rival, row.is_drift, -max(row.ratio, 1 / row.ratio)))
 
     def is_empty(self):
         return not self.rows and not self.other_counts and not self.same_counts
@@ -105,12 +121,25 @@ class Room:
             texts.append(f"{marks.count(TOO_FEW)} of too few repetitions")
         if ratios:
             texts.append(f"old / new in the middle {ratios[len(ratios) // 2]:.2f}")
+        if self.drift:
+            own = [row for row in self.rows if row.mark in (FASTER, SLOWER) and not row.is_rival and not row.is_drift]
+            texts.append(f"the machine's drift by nine of ten rivals {self.drift[0]:.2f} to {self.drift[1]:.2f}, "
+                         f"beyond which {len(own)} of our own rows differ")
         if self.only_old or self.only_new:
             texts.append(f"only in the old {len(self.only_old)}, only in the new {len(self.only_new)}")
         if self.other_counts:
             texts.append(f"{len(self.other_counts)} counted figures differ (errors, bytes), such as "
                          f"{self.other_counts[0]}")
         return ", ".join(texts)
+
+
+def drift_of(ratios):
+    """Between which ratios nine of ten rivals lie, and 1; None of too few."""
+    if len(ratios) < FEWEST_RIVALS:
+        return None
+    ratios = sorted(ratios)
+    left_out = len(ratios) // 20
+    return min(1, ratios[left_out]), max(1, ratios[-1 - left_out])
 
 
 class Comparison:
@@ -155,7 +184,9 @@ class Comparison:
         escaped = lambda text: html.escape(text, quote=False)
         parts = [f"<p>Old: <code>{escaped(self.old.path)}</code>, new: <code>{escaped(self.new.path)}</code>. Times "
                  "are medians, with the interval in which each lies at 93 % or more; where two intervals overlap the "
-                 "row is called the same. Old / new above 1: the new one is faster.</p>"]
+                 "row is called the same. Old / new above 1: the new one is faster. Between runs the machine drifts "
+                 "besides: “as rivals are” marks changes no greater than those of nine of ten rivals and plain loops, "
+                 "which are none of the library's code.</p>"]
         parts += [f'<p class="warning"><strong>{escaped(warning)}</strong></p>' for warning in self.warnings()]
         parts.append(table(["", "old", "new"], self.conditions()))
         parts.append("<ul>" + "".join(f"<li><strong>{name}</strong>: {escaped(room.summary())}</li>"
@@ -176,9 +207,10 @@ def rows_table(rows):
     arrows = {FASTER: "▲ faster", SLOWER: "▼ slower"}
     cells = []
     for row in rows:
-        name, old, new, ratio, mark = row.texts()
+        name, old, new, ratio, _ = row.texts()
         numbers = [f'<td class="figure">{html.escape(text)}</td>' for text in (old, new, ratio)]
-        cells.append([name, *numbers, f'<td class="{classes.get(mark, "")}">{arrows.get(mark, mark)}</td>'])
+        style = "" if row.is_rival or row.is_drift else classes.get(row.mark, "")
+        cells.append([name, *numbers, f'<td class="{style}">{arrows.get(row.mark, row.mark)}{row.note()}</td>'])
     return table(["Row", "Old, ns", "New, ns", "Old / new", ""], cells)
 
 

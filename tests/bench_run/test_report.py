@@ -239,6 +239,19 @@ class Comparison(Folder):
         self.assertIn("ratio:1/", found.text(everything=True))
         self.assertIn("▼ slower", found.page())
 
+    def test_what_the_rivals_do_as_well_is_the_machine(self):
+        rivals = lambda t: {"std_unordered_map": {k: t for k in range(1, 7)}}
+        found = self.compared(map_rows({"flat": {1: 10, 8: 10}, **rivals(10)}),
+                              map_rows({"flat": {1: 12, 8: 40}, **rivals(15)})).rooms["id"]
+        notes = {row.name: row.note() for row in found.rows}
+        self.assertEqual([notes[f"uniform/N:100000/ratio:{r}/{s}/rebuild"]
+                          for s, r in (("flat", 1), ("flat", 8), ("std_unordered_map", 1))],
+                         [", as rivals are", "", ", a rival"])
+        self.assertEqual(found.drift, (10 / 15, 1))
+        self.assertIn("drift by nine of ten rivals 0.67 to 1.00, beyond which 3 of our own rows differ",
+                      found.summary())
+        self.assertIn("ratio:8/flat", found.changed()[0].name)
+
     def test_one_repetition_tells_nothing(self):
         found = self.compared(repeated("uniform/N:10/ratio:1/flat/rebuild", 10, (1,), bytes_per_particle=8),
                               repeated("uniform/N:10/ratio:1/flat/rebuild", 90, (1,), bytes_per_particle=8))

@@ -125,11 +125,11 @@ def main(arguments):
     for old in ("headers", "html", "xml"):
         shutil.rmtree(folder / old, ignore_errors=True)
     for header in sorted(include.rglob("*.hpp")):
-        if "detail" not in header.parts:
-            copy = folder / "headers" / header.relative_to(include)
+        name = header.relative_to(include)
+        if "detail" not in name.parts:
+            copy = folder / "headers" / name
             copy.parent.mkdir(parents=True, exist_ok=True)
-            room = header.relative_to(include / "tsubu").parts[0]
-            copy.write_text(marked_up(header.read_text(encoding="utf-8"), room), encoding="utf-8")
+            copy.write_text(marked_up(header.read_text(encoding="utf-8"), name.parts[1]), encoding="utf-8")
     bad = warnings(folder, doxygen) + sorted(set(missing_sentences(folder)))
     for line in bad:
         print(line)

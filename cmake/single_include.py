@@ -53,14 +53,16 @@ class SingleInclude:
                         yield from self.place(needed[1])
         self.placed[name] = condition
         body = []
+        has_defined = False
         for line, depth in self.lines_with_depth(self.without_file_comment(name, text)):
             ours, theirs = OURS.match(line), THEIRS.match(line)
+            has_defined = has_defined or re.match(r"\s*#\s*define\b", line) is not None
             if ours:
                 if depth == 0:
                     yield from self.place(ours[1], condition)
                 else:
                     body += self.place(ours[1], True)
-            elif theirs and depth == 0 and not condition:
+            elif theirs and depth == 0 and not condition and not has_defined:  # a macro is a switch of what follows
                 self.standard.add(theirs[1])
             elif line != "#pragma once":
                 body.append(line)

@@ -430,7 +430,9 @@ TEST_CASE("a box that is none is refused", "[io][h5md]") {
                               }),
                "the attribute dimension has 65 values"));
     CHECK(says(with_attribute("boundary",
-                              [](const hdf5_object& of) { changed::attribute<std::int64_t>(of, "boundary", {1, 1, 1}); }),
+                              [](const hdf5_object& of) {
+                                  changed::attribute<std::int64_t>(of, "boundary", {1, 1, 1});
+                              }),
                "the attribute boundary is int64, where a text is wanted"));
     CHECK(says(with_attribute("boundary",
                               [](const hdf5_object& of) {

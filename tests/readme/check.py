@@ -8,6 +8,7 @@
     python3 tests/readme/check.py             says what differs; exit code 1 if anything does
     python3 tests/readme/check.py --write     writes it anew
 """
+import os
 import pathlib
 import re
 import shlex
@@ -30,17 +31,29 @@ def of_command(command):
     program, *arguments = shlex.split(command)
     if program not in COMMANDS:
         raise ValueError(f"{program} is none of {', '.join(COMMANDS)}")
-    done = subprocess.run([sys.executable, program, *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, program, *arguments], cwd=ROOT, capture_output=True, encoding="utf-8",
+                          env={**os.environ, "PYTHONIOENCODING": "utf-8"}, check=False)
     if done.returncode != 0:
         raise ValueError(done.stderr.strip())
     return f"\n{done.stdout.strip()}\n\n"  # Markdown wants empty lines around tables
 
 
 def faults_outside(text, shown):
-    """Code that comes from nowhere, and programs that are not shown."""
-    for fence in re.finditer(r"^```(cpp|cmake|make)$", text, re.M):
+    """Code that comes from nowhere, programs that are not shown, links and pictures that lead nowhere."""
+    for fence in re.finditer(r"^```\w+$", text, re.M):
         if not re.search(r"<!-- \S+ -->\n$", text[:fence.start()]):
             yield f"line {text.count(chr(10), 0, fence.start()) + 1}: no line <!-- FILE --> directly above the code"
+    if len(re.findall(r"^<!-- \S+\.py .*-->$", text, re.M)) != len(re.findall(r"^<!-- end -->$", text, re.M)):
+        yield "not every <!-- COMMAND --> has its <!-- end -->"
+    prose = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    heads = re.findall(r"^#+ (.*)$", prose, re.M)
+    anchors = {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose):
+        if target.startswith("#"):
+            if target[1:] not in anchors:
+                yield f"no heading for the link {target}"
+        elif "://" not in target and not (ROOT / target).exists():
+            yield f"there is no {target}"
     for program in sorted((ROOT / "tests/readme").glob("*.cpp")):
         name = str(program.relative_to(ROOT))
         if name not in shown:
@@ -72,7 +85,11 @@ def main():
                        lambda new: f"<!-- {match[1]} -->\n```{match[2]}\n{new}```\n")
 
     def renew_printed(match):
-        return renewed(match[0], match[1], of_command, match[2], lambda new: f"<!-- {match[1]} -->\n{new}<!-- end -->\n")
+        if "<!-- " in match[2]:
+            faults.append(f"{match[1]}: no <!-- end --> below it")
+            return match[0]
+        return renewed(match[0], match[1], of_command, match[2],
+                       lambda new: f"<!-- {match[1]} -->\n{new}<!-- end -->\n")
 
     new_text = PRINTED.sub(renew_printed, FENCE.sub(renew_fence, text))
     faults += faults_outside(text, shown)

@@ -91,6 +91,13 @@ class Sentences(unittest.TestCase):
         results = results_of(id_map, map_rows({"flat": {1: 10, 8: 10}, "boost_flat_map": {1: 11, 8: 11}}, noise=wild))
         self.assertIn("flat everywhere (flat 10.0 ns, boost 11.0, within noise at 8)", sparsity.sentence(results))
 
+    def test_a_crossing_within_noise_is_not_marked(self):
+        rows = lambda noise: map_rows({"dense": {1: 1, 8: 10}, "flat": {1: 2, 8: 5}}, noise=noise)
+        found = sparsity.meetings_of(results_of(id_map, rows(NOISE)), 100000, "find_hit")
+        self.assertEqual([names for _, *names in found], [["dense", "flat"]])
+        self.assertTrue(1 < found[0][0] < 8)
+        self.assertEqual(sparsity.meetings_of(results_of(id_map, rows((1, .2, 5, .5, 2))), 100000, "find_hit"), [])
+
     def test_patterns_name_the_worst_and_the_degenerate(self):
         rows = map_rows({"adaptive": {8: 2}, "boost_flat_map": {8: 6}}) + \
             map_rows({"adaptive": {8: 5}, "boost_flat_map": {8: 5.1}}, pattern="random_62_bits")

@@ -45,6 +45,19 @@ def value_of(results, count, ratio, series, measure):
     return sweep_value(results, count, ratio, series, measure)
 
 
+def meetings_of(results, count, measure):
+    """The crossings of our own tables that differ beyond noise before and after."""
+    ratios = results.ratios(count)
+    found = []
+    for x, before, after in sorted(crossings(results, count, None if measure == "memory" else measure)):
+        around = (max(r for r in ratios if r <= x), min(r for r in ratios if r >= x))
+        pairs = [(value_of(results, count, r, before, measure), value_of(results, count, r, after, measure))
+                 for r in around]
+        if all(apart(a, b) for a, b in pairs):
+            found.append((x, before, after))
+    return found
+
+
 def draw_sweep(axes, results, count, measure, marked=2):
     """With the first `marked` crossings of our own tables."""
     ratios = results.ratios(count)
@@ -66,10 +79,11 @@ def draw_sweep(axes, results, count, measure, marked=2):
     axes.set_xticks(ratios, [power(r) for r in ratios])
     axes.minorticks_off()
     plain_ticks(axes.yaxis)
-    meetings = sorted(crossings(results, count, None if measure == "memory" else measure))[:marked]
-    for k, (x, before, after) in enumerate(meetings):
-        mark_upright(axes, x, f"{LOOKS[before].short} → {LOOKS[after].short} at {figure_of(x)}", row=k, side="left",
-                     line=(0, (1, 3)))
+    for k, (x, before, after) in enumerate(meetings_of(results, count, measure)[:marked]):
+        is_right = axes.transAxes.inverted().transform(axes.transData.transform((x, 1)))[0] > .5
+        at = figure_of(x) if x < 1000 else f"{x:.1e}".replace("e+0", "e")
+        mark_upright(axes, x, f"{LOOKS[before].short} → {LOOKS[after].short} at {at}", row=k,
+                     side="right" if is_right else "left", line=(0, (1, 3)))
     label_ends(axes, ends)
 
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws the results of the programs of bench/: one page without references to anything outside itself, or the tables
-and the picture of the README; or compares two runs.
+"""Draws the results of the programs of bench/ as one page without references to anything outside itself, prints what
+the README shows of them, or compares two runs.
 
     report.py RESULT.json [MORE.json.gz ...] -o bench/out/report.html
     report.py --compare OLD NEW -o bench/out/compare.html
-    report.py --markdown RESULT.json
+    report.py --sentences RESULT.json ...     what each chart advises
+    report.py --shortfalls RESULT.json ...    which claims fail
+    report.py --markdown RESULT.json          tables
     report.py --picture FILE.svg RESULT.json
 
 Times are medians over the repetitions; the spread is the lowest and the highest. Every ratio is one of two medians of
@@ -18,4 +20,4 @@ import sys
 from report.__main__ import main  # the package: python takes it before the module of the same name
 
 if __name__ == "__main__":
-    sys.exit(main(__doc__.splitlines()[0]))
+    sys.exit(main(__doc__.split("\n\n")[0]))

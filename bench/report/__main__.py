@@ -4,14 +4,14 @@ import argparse
 import os
 import sys
 
-from . import comm, compare, dem, domain, front, id_map, io, store
+from . import comm, compare, dem, domain, front, id_map, io, reading, store
 from .charts import sparsity
 from .page import (FAILS, HOLDS, NOISY, Refusal, appendix, claim_section, context_section, document, listed,
                    markdown_claims, plotting, write_picture)
 from .reading import contents_of, files_of, room_of
 
 README_CHARTS = {"id": sparsity.readme_chart, "dem": dem.readme_chart}
-ROOMS = {"id": id_map, "domain": domain, "store": store, "io": io, "comm": comm, "dem": dem}  # in the order of the page
+ROOMS = dict(zip(reading.ROOMS, (id_map, domain, store, io, comm, dem)))
 
 
 class Figures:
@@ -83,14 +83,17 @@ def main(description):
     arguments = parser.parse_args()
     if bool(arguments.results) == bool(arguments.compare):
         parser.error("give results, or two runs to compare")
+    text_out = os.path.splitext(arguments.out)[0] + ".txt"
+    if arguments.compare and text_out == arguments.out:
+        parser.error(f"{arguments.out} is where the text beside the page goes: name a page, such as compare.html")
+    sys.stdout.reconfigure(encoding="utf-8")  # of a terminal that has no µ
     try:
         if arguments.compare:
             old, new = map(compare.Run, arguments.compare)
             found = compare.Comparison(old, new)
             write(arguments.out, found.page())
-            text = os.path.splitext(arguments.out)[0] + ".txt"
-            write(text, found.text(everything=True))
-            sys.stdout.write(found.text() + f"\nAll rows: {arguments.out} and {text}\n")
+            write(text_out, found.text(everything=True))
+            sys.stdout.write(found.text() + f"\nAll rows: {arguments.out} and {text_out}\n")
             return 0
         figures = Figures(arguments.results)
         if arguments.markdown:
@@ -111,8 +114,9 @@ def main(description):
             held = sum(claim.verdict() == HOLDS for claim in claims)
             noisy = sum(claim.verdict() == NOISY for claim in claims)
             count = held + noisy + len(short)
-            sys.stdout.write(f"Of {count} claims with a target {held} hold, {noisy} are too noisy to tell, and "
-                             f"{len(short)} fail:\n" + "\n".join(markdown_claims(short)) + "\n")
+            text = f"Of {count} claims with a target {held} hold, {noisy} are too noisy to tell, and "
+            text += f"{len(short)} fail:\n" + "\n".join(markdown_claims(short)) if short else "none fails."
+            sys.stdout.write(text + "\n")
             return 0
         write(arguments.out, page(figures))
     except (Refusal, OSError) as fault:

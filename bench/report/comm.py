@@ -5,22 +5,23 @@ import itertools
 import math
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, figure_cell, figure_of, markdown_row, middle, plain_ticks,
-                   power, quotient, ratio_cell, svg_of, table)
+from .page import (INK, Claim, Refusal, colour, figure_cell, figure_of, markdown_row, middle, plain_ticks, power,
+                   quotient, ratio_cell, svg_of, table)
 from .reading import RoomResults
 
 SERIES = (  # name, label, colour, line
-    ("tsubu", "tsubu", "#2a8fd0", "-"),
-    ("direct", "tsubu, direct", "#2a8fd0", "-"),
-    ("staged", "tsubu, staged", "#7b52ab", "-"),
-    ("hand", "by hand", "#d1603d", "-"),
-    ("raw", "MPI_Sendrecv of the bytes", "#888888", "--"),
+    ("tsubu", "tsubu", colour("blue"), "-"),
+    ("direct", "tsubu, direct", colour("blue"), "-"),
+    ("staged", "tsubu, staged", colour("purple"), "-"),
+    ("hand", "by hand", colour("vermilion"), "-"),
+    ("raw", "MPI_Sendrecv of the bytes", colour("grey"), "--"),
 )
 PATTERNS = ("direct", "staged")
 TASKS = {"forward": "forward, positions", "reverse": "reverse, forces", "make_halo": "make_halo"}
 
-# The promises: microseconds beyond a reduction; bytes by those of the leavers; times by those of the raw exchange.
-SYNC_PROMISE, BYTES_PROMISE, MIGRATE_PROMISE, FORWARD_PROMISE = 50, 1.1, 2, 1.5
+# The promises: microseconds beyond a reduction; bytes by those of the leavers; times by those of the raw
+# exchange, and by those of loops by hand.
+SYNC_PROMISE, BYTES_PROMISE, MIGRATE_PROMISE, FORWARD_PROMISE, HAND_PROMISE = 50, 1.1, 2, 1.5, 1.5
 
 # Assumptions of the model, of a network of today.
 OVERHEAD = .4e-6   # s that a core is busy with a message, sent and received
@@ -111,24 +112,26 @@ def all_claims(results):
     migrated = Claim("migrate / MPI_Sendrecv of the leavers' bytes", MIGRATE_PROMISE, at_least=False)
     for percent in results.percents():
         migrated.add(results.over_raw("migrate", percent, "tsubu"), f"{percent} % leave")
-    migrated_by_hand = Claim("migrate / by hand", None, at_least=False)
+    migrated_by_hand = Claim("migrate / by hand", HAND_PROMISE, at_least=False)
     for percent in results.percents():
         migrated_by_hand.add(results.over_hand("migrate", percent, "tsubu"), f"{percent} % leave")
     forward = Claim("forward / MPI_Sendrecv of the ghosts' bytes", FORWARD_PROMISE, at_least=False)
     for size in results.sizes():
         for pattern in PATTERNS:
             forward.add(results.over_raw("forward", size, pattern), f"{size} ghosts, {pattern}")
-    by_hand = Claim("forward / by hand", None, at_least=False)
-    for size in results.sizes():
-        for pattern in PATTERNS:
-            by_hand.add(results.over_hand("forward", size, pattern), f"{size} ghosts, {pattern}")
+    by_hand = []
+    for task in ("forward", "reverse"):
+        by_hand.append(Claim(f"{task} / by hand", HAND_PROMISE, at_least=False))
+        for size in results.sizes():
+            for pattern in PATTERNS:
+                by_hand[-1].add(results.over_hand(task, size, pattern), f"{size} ghosts, {pattern}")
     counted = Claim("Bytes per rank counted / by the formula, farthest from 1", None, at_least=False)
     for (task, series, ranks), row in results.model.items():
         expected = formula(task, series, row)
         if expected[1] and ranks >= 8:
             ratio = row["bytes"] / expected[1]
             counted.add(max(ratio, 1 / ratio), f"{task}, {series}, {ranks} ranks")
-    return [stays, moved, migrated, migrated_by_hand, forward, by_hand, counted]
+    return [stays, moved, migrated, migrated_by_hand, forward, *by_hand, counted]
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -225,17 +228,17 @@ def legend_below(figure, axes, columns=2):
 def migrate_chart(results, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 3.4))
     percents = results.percents()
-    for name, label, colour, line in SERIES:
+    for name, label, shade, line in SERIES:
         points = [(p, t) for p in percents if (t := results.time("migrate", p, name))]
         if not points:
             continue
         axes.errorbar([percents.index(p) for p, _ in points], [t for _, t in points],
                       yerr=[[max(0, t - t.low) for _, t in points], [max(0, t.high - t) for _, t in points]],
-                      color=colour, linestyle=line, marker="o", markersize=4, linewidth=1.6, label=label)
+                      color=shade, linestyle=line, marker="o", markersize=4, linewidth=1.6, label=label)
         for p, t in points:
             others = [o for s, *_ in SERIES if s != name and (o := results.time("migrate", p, s))]
             is_highest = all(t >= o for o in others)
-            axes.annotate(figure_of(t), (percents.index(p), t), xytext=(0, 6 if is_highest else -13), color=colour,
+            axes.annotate(figure_of(t), (percents.index(p), t), xytext=(0, 6 if is_highest else -13), color=shade,
                           textcoords="offset points", ha="center", fontsize=8)
     axes.set_yscale("log")
     low, high = axes.get_ylim()
@@ -261,13 +264,13 @@ def ghost_chart(results, size, pyplot):
     present = [s for s in SERIES if any(s in results.series(t, size) for t in tasks)]
     figure, axes = pyplot.subplots(figsize=(5.6, 1.1 + (.22 + .2 * len(present)) * len(tasks)))
     high = .8 / len(present)
-    for k, (name, label, colour, _) in enumerate(present):
+    for k, (name, label, shade, _) in enumerate(present):
         for row, task in enumerate(tasks):
             time = results.time(task, size, name)
             if not time:
                 continue
             place = row + high * (k - (len(present) - 1) / 2)
-            axes.barh(place, time, height=high * .9, color=colour, label=label, zorder=3)
+            axes.barh(place, time, height=high * .9, color=shade, label=label, zorder=3)
             axes.plot([time.low, time.high], [place, place], color=INK, linewidth=1, zorder=4)
             axes.annotate(figure_of(time), (time.high, place), xytext=(4, 0), textcoords="offset points", va="center",
                           fontsize=8)
@@ -284,9 +287,9 @@ def ghost_chart(results, size, pyplot):
 
 
 MODEL_SERIES = (  # task, series, label, colour
-    ("forward", "direct", "forward, direct", "#2a8fd0"),
-    ("forward", "staged", "forward, staged", "#7b52ab"),
-    ("migrate", "tsubu", "migrate", "#3a9a5b"),
+    ("forward", "direct", "forward, direct", colour("blue")),
+    ("forward", "staged", "forward, staged", colour("purple")),
+    ("migrate", "tsubu", "migrate", colour("green")),
 )
 
 
@@ -294,15 +297,15 @@ def model_chart(results, which, label, pyplot):
     """Counted: dots; the formula: lines, up to many ranks."""
     figure, axes = pyplot.subplots(figsize=(5.6, 3.4))
     lines = [2**k for k in range(1, 17)] + [MANY]
-    for task, series, name, colour in MODEL_SERIES:
+    for task, series, name, shade in MODEL_SERIES:
         rows = [(ranks, results.model[(task, series, ranks)]) for ranks in results.model_ranks()
                 if ranks > 1 and (task, series, ranks) in results.model]
         if not rows:
             continue
         axes.plot(lines, [formula(task, series, rows[0][1], grid_of(n))[which] / (1, 1e3)[which] for n in lines],
-                  color=colour, linewidth=1.4, label=name)
+                  color=shade, linewidth=1.4, label=name)
         axes.plot([n for n, _ in rows], [row[("messages", "bytes")[which]] / (1, 1e3)[which] for _, row in rows], "o",
-                  color=colour, markersize=4.5)
+                  color=shade, markersize=4.5)
     axes.set_xscale("log")
     axes.set_xlim(1.6, MANY * 1.5)
     axes.set_xticks([10**k for k in range(1, 6)], ["10", "100", "1000", "1e4", "1e5"])
@@ -322,10 +325,6 @@ def model_chart(results, which, label, pyplot):
 
 # ---------------------------------------------------------------------------------------------------------------
 # Sections of the page
-
-
-def links(results):
-    return ([("ranks", "Ranks")] if results.times else []) + ([("many", "Many ranks")] if results.model else [])
 
 
 def migrate_table(results):

@@ -8,11 +8,10 @@ is no greater than most of theirs has a mark of its own."""
 import html
 from collections import defaultdict
 
-from .page import Refusal, apart, document, figure_of, folded, middle, quotient, table
+from .page import FEWEST, Refusal, apart, document, figure_of, folded, middle, quotient, table
 from .reading import ROOMS, contents_of, files_of, room_of
 
 FASTER, SLOWER, SAME, TOO_FEW = "faster", "slower", "same", "too few repetitions"
-FEWEST = 3  # repetitions, below which an interval says nothing
 SHOWN = 40  # changed rows of a room on the terminal; the files have all
 # Fields that are times, or depend on them; the others are counted, and should not differ at all
 TIMES = {"real_time", "cpu_time", "items_per_second", "bytes_per_second", "iterations", "repetition_index", "store_ns",
@@ -42,7 +41,7 @@ class Run:
 
     def __init__(self, path):
         self.path = path
-        self.contexts = {}                                       # room: that of its first file
+        self.contexts = defaultdict(list)                        # room: those of its files
         self.costs = defaultdict(lambda: defaultdict(list))      # room: name: [ns]
         self.counted = defaultdict(dict)                         # room: (name, step): fields that are no times
         for file in files_of(self.path):
@@ -51,7 +50,7 @@ class Run:
     def read(self, file):
         context, rows = contents_of(file)
         room = room_of(rows)
-        self.contexts.setdefault(room, context)
+        self.contexts[room].append(context)
         already = set(self.costs[room]) | {name for name, _ in self.counted[room]}  # of two runs of one row the first
         for row in rows:
             if row["name"] in already:
@@ -64,13 +63,14 @@ class Run:
                 self.counted[room].setdefault((row["name"], row.get("steps", row.get("omega_dt"))), fields)
 
     def values(self, key):
-        return list(dict.fromkeys(str(c.get(key, "unknown")) for c in self.contexts.values()))
+        return list(dict.fromkeys(str(c.get(key, "unknown")) for found in self.contexts.values() for c in found))
 
 
 class Row:
     def __init__(self, name, old, new):
         self.name, self.old, self.new = name, middle(old), middle(new)
-        self.is_rival = not RIVALS.isdisjoint(name.split("/"))
+        words = name.split("/")
+        self.is_rival = "tsubu" not in words and not RIVALS.isdisjoint(words)
         self.is_drift = False  # no greater a change than most rivals have
         self.ratio = quotient(self.old, self.new)
         if min(len(old), len(new)) < FEWEST:
@@ -123,7 +123,7 @@ class Room:
             texts.append(f"old / new in the middle {ratios[len(ratios) // 2]:.2f}")
         if self.drift:
             own = [row for row in self.rows if row.mark in (FASTER, SLOWER) and not row.is_rival and not row.is_drift]
-            texts.append(f"the machine's drift by nine of ten rivals {self.drift[0]:.2f} to {self.drift[1]:.2f}, "
+            texts.append(f"the machine's drift by most rivals {self.drift[0]:.2f} to {self.drift[1]:.2f}, "
                          f"beyond which {len(own)} of our own rows differ")
         if self.only_old or self.only_new:
             texts.append(f"only in the old {len(self.only_old)}, only in the new {len(self.only_new)}")
@@ -134,11 +134,11 @@ class Room:
 
 
 def drift_of(ratios):
-    """Between which ratios nine of ten rivals lie, and 1; None of too few."""
+    """Between which ratios nine of ten rivals lie, and 1, or all but two where that is fewer; None of too few."""
     if len(ratios) < FEWEST_RIVALS:
         return None
     ratios = sorted(ratios)
-    left_out = len(ratios) // 20
+    left_out = max(1, len(ratios) // 20)  # at each end: one that was disturbed must not hide what became slower here
     return min(1, ratios[left_out]), max(1, ratios[-1 - left_out])
 
 
@@ -185,7 +185,7 @@ class Comparison:
         parts = [f"<p>Old: <code>{escaped(self.old.path)}</code>, new: <code>{escaped(self.new.path)}</code>. Times "
                  "are medians, with the interval in which each lies at 93 % or more; where two intervals overlap the "
                  "row is called the same. Old / new above 1: the new one is faster. Between runs the machine drifts "
-                 "besides: “as rivals are” marks changes no greater than those of nine of ten rivals and plain loops, "
+                 "besides: “as rivals are” marks changes no greater than those of most rivals and plain loops, "
                  "which are none of the library's code.</p>"]
         parts += [f'<p class="warning"><strong>{escaped(warning)}</strong></p>' for warning in self.warnings()]
         parts.append(table(["", "old", "new"], self.conditions()))

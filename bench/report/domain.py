@@ -4,16 +4,16 @@ import html
 import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Spread, figure_of, folded, markdown_row, power,
-                   quotient, ratio_cell, spread_text, svg_of, table)
+from .page import (GRID, INK, Claim, Spread, colour, figure_of, folded, markdown_row, power, quotient, ratio_cell,
+                   spread_text, svg_of, table)
 from .reading import RoomResults
 
 # name: (label, colour, marker)
 SCALARS = {
-    "double": ("double", "#2a8fd0", "o"),
-    "float": ("float", "#d1603d", "s"),
-    "lattice32": ("lattice, int32", "#4fa35a", "^"),
-    "lattice64": ("lattice, int64", "#8a6fd1", "D"),
+    "double": ("double", colour("blue"), "o"),
+    "float": ("float", colour("vermilion"), "s"),
+    "lattice32": ("lattice, int32", colour("green"), "^"),
+    "lattice64": ("lattice, int64", colour("purple"), "D"),
 }
 BORDERS = ("exact", "padded")
 OPERATIONS = {
@@ -178,11 +178,11 @@ def partition_chart(results, field, title, pyplot):
                 continue
             rows = [results.partitions[(scalar, border, s)] for s in scales]
             shares = [max(row[field] / row["points"], LEAST) for row in rows]
-            name, colour, marker = SCALARS[scalar]
+            name, shade, marker = SCALARS[scalar]
             is_padded = border == "padded"
-            axes.plot(scales, shares, color=colour, marker=marker, markersize=3.5 if is_padded else 6, linewidth=1.4,
+            axes.plot(scales, shares, color=shade, marker=marker, markersize=3.5 if is_padded else 6, linewidth=1.4,
                       linestyle="-" if is_padded else (0, (4, 2)), label=f"{border}, {name}",
-                      markerfacecolor=colour if is_padded else "none", markevery=1 if is_padded else 4,
+                      markerfacecolor=shade if is_padded else "none", markevery=1 if is_padded else 4,
                       zorder=4 if is_padded else 3)
     axes.set(xlabel="edge of the box [m]", ylabel="wrong, of points chosen near faces")
     axes.set_ylim(LEAST / 1.7, 1.6)
@@ -366,10 +366,6 @@ def partition_table(results):
             rows.append(row)
     return table(["Scalar", "Box [m]"] + [f"{b}: {f}" for b in BORDERS for f in ("inside", "outside", "extended")] +
                  ["points"], rows)
-
-
-def links(results):
-    return [("domain", "Domain")]
 
 
 PARTITION_TEXT = (

@@ -3,7 +3,7 @@
 import html
 
 from .charts import CHARTS
-from .page import listed
+from .page import FEWEST, listed
 
 ALIGNED = " -falign-loops=64"  # of the room store alone, by intention: see bench/CMakeLists.txt
 # What has to be the same in all files of one page: key, how it is called
@@ -32,8 +32,15 @@ def introduction(figures):
         f"<code>{every('flags')}</code>, {commit_text(contexts)}, {escaped(date_text(contexts))}.</p>"
         f"<p>Each time is a median of {span(repetitions)} repetitions, in which all contenders of a group took turns "
         "in random order; its spread is the interval in which the median lies at 93 % or more: with five repetitions "
-        "from the lowest to the highest. Two times are called different only if their spreads do not overlap; else the "
-        "text says “within noise”. Seeds and scenes are fixed; answers are compared before they are timed.</p>")
+        f"from the lowest to the highest{few_text(figures)}. Two times are called different only if their spreads do "
+        "not overlap; else the text says “within noise”. Seeds and scenes are fixed; answers are compared before they "
+        "are timed.</p>")
+
+
+def few_text(figures):
+    """Which rooms have times of too few repetitions for that."""
+    rooms = [name for name, results in figures.results.items() if any(1 < n < FEWEST for n in results.repetitions())]
+    return f"; with fewer, of which there are some in {listed(rooms)}, that interval says less" if rooms else ""
 
 
 def span(numbers):
@@ -91,9 +98,16 @@ def missing_rooms(figures, rooms):
             for name in rooms if name not in figures.results]
 
 
+def missing_charts(figures):
+    """Of rooms that have figures, but not those."""
+    return [f"chart {k} ({chart.ABSENT})" for k, chart in enumerate(CHARTS, 1)
+            if chart.ROOM in figures.results and not chart.is_there(figures.results[chart.ROOM])]
+
+
 def missing(figures, rooms):
     parts = [f"{what} (would stand in {where}; {why})" for what, where, why in missing_rivals(figures)]
     parts += [f"the room {name} ({remedy})" for name, remedy in missing_rooms(figures, rooms)]
+    parts += missing_charts(figures)
     if not parts:
         return "<p>Nothing is missing: Boost, Abseil, LAMMPS and MPI were found.</p>" if "id" in figures.results else ""
     return f'<p class="warning"><strong>Missing on this page:</strong> {escaped("; ".join(parts))}.</p>'
@@ -107,6 +121,17 @@ def absent_here(figures, chart):
     return f"<p>Not measured, since not found: {escaped(listed(names))}.</p>" if names else ""
 
 
+def capital(text):
+    return text[:1].upper() + text[1:]
+
+
+def sentence(chart, results):
+    """All advice of a chart, with its figures."""
+    opening, parts = chart.advice(results)
+    texts = "; ".join(f"{text} ({numbers})" if numbers else text for text, numbers in parts)
+    return capital(f"{opening} {texts}." if opening else f"{texts}.") if parts else ""
+
+
 def chart_section(figures, number, chart, pyplot):
     results = figures.results.get(chart.ROOM)
     head = (f'<section><h2 id="chart{number}">{number}. {escaped(chart.TITLE)}</h2>'
@@ -114,7 +139,7 @@ def chart_section(figures, number, chart, pyplot):
     if results is None or not chart.is_there(results):
         return head + (f'<p class="warning">Not in these figures: <code>{escaped(chart.ABSENT)}</code> '
                        "measures them.</p></section>")
-    return (head + chart.drawn(results, pyplot) + f'<p class="sentence">{escaped(chart.sentence(results))}</p>' +
+    return (head + chart.drawn(results, pyplot) + f'<p class="sentence">{escaped(sentence(chart, results))}</p>' +
             absent_here(figures, chart) + chart.figures(results) + "</section>")
 
 
@@ -127,8 +152,13 @@ def chart_sections(figures, pyplot):
 
 
 def sentences(figures):
-    """A line of a list for each chart that is there."""
+    """Lines of a list for the README: what each chart advises, without its figures, and which charts are not there."""
     for k, chart in enumerate(CHARTS, 1):
         results = figures.results.get(chart.ROOM)
-        if results is not None and chart.is_there(results):
-            yield f"{k}. **{chart.TITLE}** {chart.sentence(results)}"
+        if results is None or not chart.is_there(results):
+            yield f"- **Chart {k}. {chart.TITLE}** Not in these figures."
+            continue
+        opening, parts = chart.advice(results)
+        yield f"- **Chart {k}. {chart.TITLE}**" + (f" {opening}" if opening else "")
+        for text, _ in parts:
+            yield f"  - {text if opening else capital(text)}"

@@ -7,38 +7,38 @@ import re
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Spread, figure_of, folded, markdown_row, plain_ticks, power,
-                   quotient, spread_text, svg_of, table)
+from .drawing import Look, label_at, label_ends, legend, mark_upright, new_panel, panel, panels
+from .page import (Claim, Spread, apart, figure_of, folded, limits, markdown_row, plain_ticks, power, quotient,
+                   runs_of_choice, spans_text, spread_text, table)
 from .reading import RoomResults
 
 OWN = ("dense", "bitmap", "paged", "flat", "chained_mixed", "chained_mod_prime")
 RIVALS = ("std_unordered_map", "boost_flat_map", "absl_flat_hash_map", "absl_prefetched")
-NOTES = "chained_mod_prime"  # the notes' scheme
+LIGGGHTS = "chained_mod_prime"
 DEFAULT = "adaptive"
 DEFAULT_PORTABLE = "adaptive_portable"
 
-# name: (label, colour, marker, line style, width). The colours have a luminance between those of both backgrounds;
-# without colour, marker and line tell the series apart.
-SERIES = {
-    "dense": ("dense", "#d1603d", "s", "-", 1.6),
-    "bitmap": ("bitmap", "#8a6fd1", "D", "-", 1.6),
-    "paged": ("paged", "#b0873a", "p", "-", 1.6),
-    "flat": ("flat", "#2a8fd0", "o", "-", 2.0),
-    "flat_portable": ("flat, portable", "#2a8fd0", "o", "--", 1.2),
-    "chained_mixed": ("chained, mixed", "#4fa35a", "^", "-", 1.4),
-    "chained_mod_prime": ("chained, mod prime (LIGGGHTS' scheme)", "#c0508f", "v", "-", 1.4),
-    "adaptive": ("adaptive (default)", INK, "O", "-", .9),
-    "adaptive_portable": ("adaptive, portable", INK, "S", "--", .9),
-    "std_unordered_map": ("std::unordered_map", "#888888", "x", "-.", 1.1),
-    "boost_flat_map": ("boost::unordered_flat_map", "#2fa39b", "+", "-.", 1.1),
-    "absl_flat_hash_map": ("absl::flat_hash_map", "#87922f", "1", "-.", 1.1),
-    "absl_prefetched": ("absl, prefetched", "#87922f", "2", ":", 1.1),
-    "oracle": ("oracle: places known", INK, "", ":", 1.6),
-    "plain_array": ("plain array", INK, "*", "", 0),
+LOOKS = {
+    "dense": Look("dense", "vermilion", "s"),
+    "bitmap": Look("bitmap", "purple", "D"),
+    "paged": Look("paged", "orange", "p"),
+    "flat": Look("flat", "blue", "o", width=2),
+    "flat_portable": Look("flat, portable", "blue", "o", "--"),
+    "chained_mixed": Look("chained, mixed", "green", "^", short="chained"),
+    LIGGGHTS: Look("LIGGGHTS' scheme: chains, the id modulo a prime", "yellow", "v", short="LIGGGHTS"),
+    DEFAULT: Look("adaptive, the default", "ink", "o", (0, (1, 1)), 1.2, short="adaptive", is_hollow=True),
+    DEFAULT_PORTABLE: Look("adaptive, portable", "ink", "s", (0, (1, 1)), 1.2, is_hollow=True),
+    "std_unordered_map": Look("std::unordered_map", "grey", "x", "-.", 1.1, short="std"),
+    "boost_flat_map": Look("boost::unordered_flat_map", "sky", "+", "-.", 1.1, short="boost"),
+    "absl_flat_hash_map": Look("absl::flat_hash_map", "grey", "1", ":", 1.3, short="absl"),
+    "absl_prefetched": Look("absl::flat_hash_map, prefetched", "grey", "2", ":", 1.3, short="absl prefetched"),
+    "oracle": Look("oracle: places known, the limit of random access", "ink", "", "--", 1, short="oracle"),
+    "plain_array": Look("plain array", "ink", "*", ":", 1),
 }
-# For policies of the user's own, in the order in which they come: colours and markers that no series above has.
-GUESTS = (("#e2304a", "P"), ("#5a5fe8", "X"), ("#7ab317", "<"), ("#96694c", ">"), ("#d94fe0", "h"))
-KNOWN = len(SERIES)
+# They would lie upon others
+IN_TABLES_ALONE = ("flat_portable", DEFAULT_PORTABLE, "absl_prefetched", "plain_array")
+# For series of the user's own, in the order in which they come
+GUESTS = (("P", "-"), ("X", "--"), ("<", "-."), (">", ":"), ("h", "-"))
 OPERATIONS = {
     "find_hit": ("Batched look-up, every id on the rank", "ns per look-up"),
     "find_half": ("Batched look-up, half of the ids elsewhere", "ns per look-up"),
@@ -48,6 +48,18 @@ OPERATIONS = {
     "rebuild": ("Rebuild with same-id links", "ns per particle"),
     "rebuild_without_links": ("Rebuild without links", "ns per particle"),
     "update": ("Update, 1 % of the entries changed", "ns per particle"),
+}
+# What charts 1 and 2 show; the appendix has the others.
+MEASURES = {"find_hit": "Batched look-up, ns each", "find_single": "Single look-up, ns each",
+            "rebuild": "Rebuild, ns per particle", "memory": "Memory, bytes per particle"}
+# The patterns of chart 2, and what they are called there
+PATTERNS = {
+    "uniform": "uniform, to compare", "lattice": "fresh lattice", "hopper": "long run in a hopper",
+    "mixed_slice": "slice of a rank, mixed", "block": "blocks of 1024", "strided": "every 8th",
+    "clustered": "clustered, rank << 40", "rank_in_low_bits": "rank in the low bits",
+    "random_62_bits": "62 random bits",
+    "stride_2^6": "multiples of 2^6", "stride_2^12": "multiples of 2^12", "stride_2^20": "multiples of 2^20",
+    "fibonacci_30": "multiples of 832040", "multiples_of_B": "multiples of the buckets",
 }
 BATCHES = ("find_hit", "find_half", "find_near")
 HARD_PATTERNS = re.compile(r"multiples_of|stride_2|fibonacci|clustered|rank_in_low_bits|random_62_bits")
@@ -79,8 +91,6 @@ class Results(RoomResults):
             if operation == ["rebuild"]:
                 self.degenerate[cell] = (row["degenerate"], row.get("nanoseconds"))
         elif (*cell, operation[0]) not in self.already:  # of two runs of one cell the first counts
-            if series not in SERIES:
-                SERIES[series] = (series, *GUESTS[(len(SERIES) - KNOWN) % len(GUESTS)], "-", 1.6)
             self.times[(*cell, operation[0])].append(1e9 / row["items_per_second"])
             self.memory[cell] = row["bytes_per_particle"]
 
@@ -101,6 +111,13 @@ class Results(RoomResults):
                  if (value := self.median(pattern, count, ratio, s, operation))]
         return min(found) if found else None
 
+    def looks(self):
+        """{series: Look} of all that have figures; those that are not known here come last."""
+        present = dict.fromkeys([key[3] for key in self.times] + [key[3] for key in self.refused])
+        guests = [s for s in present if s not in LOOKS]
+        return {**{s: look for s, look in LOOKS.items() if s in present},
+                **{s: Look(s, "red", *GUESTS[k % len(GUESTS)]) for k, s in enumerate(guests)}}
+
     def points(self, operation=None):
         """All (pattern, N, ratio), in the order of measurement."""
         return list(dict.fromkeys(key[:3] for key in self.times if operation in (None, key[4])))
@@ -113,7 +130,11 @@ class Results(RoomResults):
 
 
 def label(series):
-    return SERIES[series][0] if series in SERIES else series
+    return LOOKS[series].label if series in LOOKS else series
+
+
+def short_label(series):
+    return LOOKS[series].short if series in LOOKS else series
 
 
 def place_name(point):
@@ -172,21 +193,21 @@ def claims_on_memory(results):
     return claims
 
 
-def claims_against_notes(results):
+def claims_against_liggghts(results):
     claims = []
     for operation, target in (("find_hit", 3.0), ("rebuild", 2.5)):
-        claim = Claim(f"{OPERATIONS[operation][0]}: notes' scheme / default", target)
+        claim = Claim(f"{OPERATIONS[operation][0]}: LIGGGHTS' scheme / default", target)
         for count in (10**5, 10**6, 10**7):
             for point in sparse_points(results, count):
-                notes = results.median(*point, NOTES, operation)
-                claim.add(quotient(notes, results.median(*point, DEFAULT, operation)), place_name(point),
-                          quotient(notes, results.median(*point, DEFAULT_PORTABLE, operation)))
+                theirs = results.median(*point, LIGGGHTS, operation)
+                claim.add(quotient(theirs, results.median(*point, DEFAULT, operation)), place_name(point),
+                          quotient(theirs, results.median(*point, DEFAULT_PORTABLE, operation)))
         claims.append(claim)
-    claim = Claim("Memory: notes' scheme / flat with 4-byte slots", 4.0)
+    claim = Claim("Memory: LIGGGHTS' scheme / flat with 4-byte slots", 4.0)
     for count in (10**5, 10**6, 10**7):
         for point in sparse_points(results, count):
             if slot_bytes(results, point) == 4:
-                claim.add(quotient(results.memory.get((*point, NOTES)), results.memory.get((*point, "flat"))),
+                claim.add(quotient(results.memory.get((*point, LIGGGHTS)), results.memory.get((*point, "flat"))),
                           place_name(point))
     return claims + [claim]
 
@@ -252,81 +273,40 @@ def claims_on_patterns(results):
             width = slot_bytes(results, (pattern, count, 8))
             if grown:
                 memory.add(grown / {4: 1, 8: 2, 20: 2.5}[width], place_name((pattern, count, 8)))
-    slow = Claim("Notes' scheme on multiples of its bucket count: nodes visited per look-up (degenerate)", 1000, "")
+    slow = Claim("LIGGGHTS' scheme on multiples of its bucket count: nodes visited per look-up (degenerate)", 1000, "")
     for cell, (visits, _) in results.degenerate.items():
         slow.add(visits, place_name(cell[:3]))
     return claims + [memory, slow]
 
 
 def all_claims(results):
-    return (claims_against_rivals(results) + claims_on_memory(results) + claims_against_notes(results) +
+    return (claims_against_rivals(results) + claims_on_memory(results) + claims_against_liggghts(results) +
             claims_against_limit(results) + claims_on_default(results) + claims_on_patterns(results))
 
 
 # ---------------------------------------------------------------------------------------------------------------
-# Which policy to choose when
-
-CHOICES = {"batched look-up": "find_hit", "single look-up": "find_single", "rebuild": "rebuild", "memory": None}
+# Sweeps over T/N, of uniform ids
 
 
-def own_values(results, point, operation):
-    """{series: ns or bytes} of our own policies; the default follows one of them and is no choice of its own."""
-    if operation is None:
-        found = {s: results.memory.get((*point, s)) for s in OWN}
-    else:
-        found = {s: results.median(*point, s, operation) for s in OWN}
-    return {s: value for s, value in found.items() if value}
+def drawn_looks(results):
+    return {s: look for s, look in results.looks().items() if s not in IN_TABLES_ALONE}
 
 
-def choice(results, point, operation):
-    """[the best, and those within 5 % of it, which the noise does not tell apart]"""
-    values = own_values(results, point, operation)
-    if not values:
-        return []
-    least = min(values.values())
-    return sorted((s for s, v in values.items() if v <= 1.05 * least), key=values.get)
+def value_of(results, count, ratio, series, measure):
+    if measure == "memory":
+        return results.memory.get(("uniform", count, ratio, series))
+    return results.median("uniform", count, ratio, series, measure)
 
 
-def choice_cell(results, point, operation):
-    chosen = choice(results, point, operation)
-    if not chosen:
-        return ""
-    text = " ≈ ".join(label(s) for s in chosen)
-    least = own_values(results, point, operation)[chosen[0]]
-    text += f" · {figure_of(least)} {'B' if operation is None else 'ns'}"
-    rival = results.best(RIVALS, *point, operation) if operation else None
-    if rival and rival[0] < least / 1.05:
-        text += f" ({label(rival[1])}: {figure_of(rival[0])})"
-    return text
+def own_costs(results, count, measure):
+    """ratio -> {table: cost} of our own tables; the default follows one of them and is no choice of its own."""
+    return lambda ratio: {s: v for s in OWN if (v := value_of(results, count, ratio, s, measure))}
 
 
-def choice_sentence(results, count, what, operation):
-    """For 1e5 ids, batched look-up: dense up to T/N = 2, flat from 8 on."""
-    runs = []  # [series, first ratio, last ratio]
-    for ratio in results.ratios(count):
-        chosen = choice(results, ("uniform", count, ratio), operation)
-        if not chosen:
-            continue
-        if runs and runs[-1][0] in chosen:
-            runs[-1][2] = ratio
-        else:
-            runs.append([chosen[0], ratio, ratio])
-    parts = []
-    for k, (series, first, last) in enumerate(runs):
-        if len(runs) == 1:
-            span = "everywhere"
-        elif k == 0:
-            span = f"at T/N = {power(last)}" if first == last else f"up to T/N = {power(last)}"
-        elif k == len(runs) - 1:
-            span = f"from {power(first)} on"
-        else:
-            span = f"at {power(first)}" if first == last else f"from {power(first)} to {power(last)}"
-        parts.append(f"{label(series)} {span}")
-    return f"{power(count)} particles, {what}: {', '.join(parts)}."
-
-
-# ---------------------------------------------------------------------------------------------------------------
-# Charts
+def choice_text(results, count, measure):
+    """dense up to T/N = 8 and flat from 64 on"""
+    return spans_text(runs_of_choice(results.ratios(count), own_costs(results, count, measure)), "T/N = ", short_label,
+                      power)
 
 
 def crossing(x0, x1, a0, a1, b0, b1):
@@ -338,77 +318,79 @@ def crossing(x0, x1, a0, a1, b0, b1):
     return math.exp(math.log(x0) + share * (math.log(x1) - math.log(x0)))
 
 
-def crossings(results, count, operation):
-    """[(T/N, better before, better after)] where the best of our own policies changes, and where dense and flat meet.
+def crossings(results, count, measure):
+    """[(T/N, better before, better after)] where the best of our own tables changes, and where dense and flat meet, if
+    they differ beyond noise on both sides.
 
-    A policy that is refused at the next T/N is lost somewhere between: a limit, no crossing.
-    """
+    A table that is refused at the next T/N is lost somewhere between: a limit, no crossing."""
     found = []
-    ratios = results.ratios(count)
+    costs, ratios = own_costs(results, count, measure), results.ratios(count)
     for x0, x1 in zip(ratios, ratios[1:]):
-        v0, v1 = (own_values(results, ("uniform", count, x), operation) for x in (x0, x1))
+        v0, v1 = costs(x0), costs(x1)
         pairs = [("dense", "flat"), ("flat", "dense")]
         if v0 and v1:
             pairs.insert(0, (min(v0, key=v0.get), min(v1, key=v1.get)))
         for before, after in dict.fromkeys(pairs):
             if before == after or not all(s in v for s in (before, after) for v in (v0, v1)):
                 continue
-            if v0[before] < v0[after]:
+            if v0[before] < v0[after] and all(apart(v[before], v[after]) for v in (v0, v1)):
                 x = crossing(x0, x1, v0[before], v1[before], v0[after], v1[after])
                 if x:
                     found.append((x, before, after))
-    return found
+    return sorted(found)
 
 
-def style_of(series):
-    _, colour, marker, line, width = SERIES.get(series, (series, "#888888", ".", "-", 1))
-    style = {"color": colour, "marker": marker, "linestyle": line or "none", "linewidth": width, "markersize": 5,
-             "label": label(series)}
-    if marker in ("O", "S"):  # a ring or a frame around the policy that it follows
-        style.update(marker=marker.lower(), markersize=9, markerfacecolor="none")
-    if series == "flat_portable":
-        style.update(markerfacecolor="none")
-    if marker in "x+12":
-        style.update(markersize=7)
-    return style
-
-
-def drawn_series(results, count, operation):
-    """Those with figures; the prefetching wrapper only where it differs from the plain map."""
-    return [s for s in SERIES if (s != "absl_prefetched" or operation in BATCHES) and
-            any(sweep_value(results, count, r, s, operation) for r in results.ratios(count))]
-
-
-def sweep_value(results, count, ratio, series, operation):
-    if operation == "memory":
-        return results.memory.get(("uniform", count, ratio, series))
-    return results.median("uniform", count, ratio, series, operation)
-
-
-def sweep_chart(results, count, operation, title, unit, pyplot):
-    figure, axes = pyplot.subplots(figsize=(5.6, 4.2))
+def draw_sweep(axes, results, count, measure, marked=2):
+    """With the first `marked` crossings of our own tables."""
     ratios = results.ratios(count)
-    for series in drawn_series(results, count, operation):
-        points = [(r, v) for r in ratios if (v := sweep_value(results, count, r, series, operation))]
-        style = style_of(series)
-        if len(points) == 1 and not style["marker"]:
-            style.update(marker="_", markersize=14, markeredgewidth=1.6)  # a line needs two points to be seen
-        axes.plot(*zip(*points), **style, zorder=4 if series.startswith(DEFAULT) else 3)
-    axes.set(xscale="log", yscale="log", xlabel="T/N: range of the ids per id", ylabel=unit)
-    if len(ratios) == 1:
-        axes.set_xlim(ratios[0] / 2, ratios[0] * 2)
+    ends = []
+    for series, look in drawn_looks(results).items():
+        points = [(r, v) for r in ratios if (v := value_of(results, count, r, series, measure))]
+        if not points or (series == "oracle" and measure == "memory"):
+            continue
+        axes.plot(*zip(*points), **look.style(zorder=4 if series == DEFAULT else 3))
+        if measure != "memory" and len(points) > 1:
+            axes.fill_between([r for r, _ in points], [limits(v)[0] for _, v in points],
+                              [limits(v)[1] for _, v in points], color=look.colour, alpha=.13, linewidth=0, zorder=1)
+        if points[-1][0] == ratios[-1]:
+            ends.append((*points[-1], look.short, look.colour))
+        else:  # refused from here on
+            label_at(axes, points[-1], look.short, look.colour)
+    axes.set(xscale="log", yscale="log")
+    axes.set_xlabel("T/N", fontsize=9, labelpad=1)
     axes.set_xticks(ratios, [power(r) for r in ratios])
     axes.minorticks_off()
     plain_ticks(axes.yaxis)
-    axes.grid(True)
-    meetings = sorted(crossings(results, count, None if operation == "memory" else operation))
-    for k, (x, before, after) in enumerate(meetings):
-        axes.axvline(x, color=INK, linewidth=.8, linestyle=(0, (2, 3)))
-        axes.annotate(f"{label(before)} → {label(after)}: {figure_of(x)}", (x, 1.01 + .045 * (len(meetings) - 1 - k)),
-                      xycoords=("data", "axes fraction"), fontsize=7.5, ha="left")
-    axes.set_title(title, pad=6 + 12 * len(meetings), loc="left")
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, .5), frameon=False, fontsize=8, handlelength=3)
-    return svg_of(figure, pyplot, f"{title}, {power(count)} particles")
+    for k, (x, before, after) in enumerate(crossings(results, count, measure)[:marked]):
+        is_right = axes.transAxes.inverted().transform(axes.transData.transform((x, 1)))[0] > .5
+        at = figure_of(x) if x < 1000 else f"{x:.1e}".replace("e+0", "e")
+        mark_upright(axes, x, f"{short_label(before)} → {short_label(after)} at {at}", row=k,
+                     side="right" if is_right else "left", line=(0, (1, 3)))
+    label_ends(axes, ends)
+
+
+def sweep_panel(results, count, measure, title, pyplot):
+    figure, axes = new_panel(pyplot)
+    draw_sweep(axes, results, count, measure)
+    return panel(figure, pyplot, f"{title}: {power(count)} particles")
+
+
+def sweep_counts(results):
+    """Of the uniform ids: those sizes for which there is a sweep."""
+    return [n for n in results.counts() if len(results.ratios(n)) > 1]
+
+
+def sweep_table(results, count, measure):
+    """All series that have a figure there, or are refused."""
+    ratios = results.ratios(count)
+    rows = []
+    for series, look in results.looks().items():
+        if series == "absl_prefetched" and measure not in BATCHES:  # where it is the plain map
+            continue
+        cells = [spread_cell(results, ("uniform", count, r), series, measure) for r in ratios]
+        if any(cell != "<td></td>" for cell in cells):
+            rows.append([look.label, *cells])
+    return table(["T/N"] + [power(r) for r in ratios], rows)
 
 
 def pattern_points(results):
@@ -420,51 +402,26 @@ def pattern_points(results):
     return {n: patterns for n, patterns in sorted(found.items()) if len(patterns) > 1}
 
 
-def pattern_chart(results, count, patterns, pyplot):
-    operations = ("find_hit", "rebuild")
-    figure, pair = pyplot.subplots(1, 2, sharey=True, figsize=(11, 1.6 + .3 * len(patterns)))
-    rows = range(len(patterns))
-    handles = {}
-    for axes, operation in zip(pair, operations):
-        for series in SERIES:
-            if series == "absl_prefetched" and operation not in BATCHES:
-                continue
-            points = [(v, k) for k, p in enumerate(patterns) if (v := results.median(p, count, 8, series, operation))]
-            if not points:
-                continue
-            style = style_of(series)
-            if series == "oracle":
-                style["marker"] = "|"
-            if "portable" in series:
-                style.update(markerfacecolor="none", alpha=.55)
-            style["linestyle"] = "none"
-            handles.setdefault(series, axes.plot(*zip(*points), **style)[0])
-        axes.set(xscale="log", xlabel=OPERATIONS[operation][1])
-        axes.set_title(OPERATIONS[operation][0], loc="left")
-        base = results.median("uniform", count, 1024, DEFAULT, operation)
-        if base:
-            axes.axvline(2 * base, color=INK, linewidth=.8, linestyle=(0, (2, 3)))
-            axes.annotate("2 × uniform, T/N 1024, default", (2 * base, 1.0), fontsize=7.5,
-                          xycoords=("data", "axes fraction"), va="bottom", ha="center", annotation_clip=False)
-            axes.set_title(OPERATIONS[operation][0], loc="left", pad=16)
-        mark_degenerate(axes, results, count, patterns)
-        plain_ticks(axes.xaxis)
-        axes.grid(True, axis="both")
-    pair[0].set_yticks(list(rows), patterns)
-    pair[0].set_ylim(len(patterns) - .4, -.6)
-    figure.subplots_adjust(wspace=.2)
-    figure.legend(handles.values(), [h.get_label() for h in handles.values()], loc="upper center", ncol=4,
-                  frameon=False, fontsize=8, bbox_to_anchor=(.5, .11 - .55 / figure.get_figheight()))
-    return svg_of(figure, pyplot, f"Patterns of ids, {power(count)} particles")
+def pattern_size(results):
+    """Of chart 2: the size at which most patterns were measured; None if none were."""
+    points = pattern_points(results)
+    return max(points, key=lambda n: len(points[n])) if points else None
 
 
-def mark_degenerate(axes, results, count, patterns):
-    """An arrow beyond the right edge, where the notes' scheme is out of any scale."""
-    for k, pattern in enumerate(patterns):
-        if (pattern, count, 8, NOTES) in results.degenerate:
-            visits = f"{results.degenerate[(pattern, count, 8, NOTES)][0]:,.0f}".replace(",", "\u202f")
-            axes.annotate(f"▶ notes' scheme:\n   {visits} nodes", (1.005, k), ha="left", va="center", fontsize=7.5,
-                          xycoords=("axes fraction", "data"), color=SERIES[NOTES][1], annotation_clip=False)
+def pattern_table(results, count, patterns, measure):
+    """Of {pattern: what it is called}; empty if nothing was measured."""
+    rows, present = {}, {}
+    for series, look in results.looks().items():
+        if series == "absl_prefetched" and measure not in BATCHES:
+            continue
+        cells = [spread_cell(results, (p, count, 8), series, measure) for p in patterns]
+        if any('class="figure"' in cell for cell in cells):
+            present[series] = look.label
+            for pattern, cell in zip(patterns, cells):
+                rows.setdefault(pattern, []).append(cell)
+    if not present:
+        return ""
+    return table(["Pattern", *present.values()], [[patterns[p], *cells] for p, cells in rows.items()])
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -489,100 +446,69 @@ def spread_cell(results, point, series, operation):
     return "<td></td>"
 
 
-def sweep_table(results, count, operation):
-    ratios = results.ratios(count)
-    refusing = {s for (p, n, _, s) in results.refused if (p, n) == ("uniform", count)}
-    rows = []
-    for series in SERIES:
-        if series in drawn_series(results, count, operation) or series in refusing:
-            rows.append([label(series)] +
-                        [spread_cell(results, ("uniform", count, r), series, operation) for r in ratios])
-    return table(["T/N"] + [power(r) for r in ratios], rows)
+def sweep_section(results, pyplot):
+    """Charts and tables of the operations that chart 1 has not."""
+    operations = [o for o in OPERATIONS if o not in MEASURES and any(key[0] == "uniform" and key[4] == o
+                                                                     for key in results.times)]
+    parts = []
+    if sweep_counts(results) and operations:
+        parts = ["<h3>Other operations on uniform ids</h3>", legend(drawn_looks(results).values(), pyplot),
+                 panels(sweep_panel(results, n, o, OPERATIONS[o][0], pyplot) for o in operations
+                        for n in sweep_counts(results) if any(key[:2] == ("uniform", n) and key[4] == o
+                                                              for key in results.times))]
+    for count in reversed(results.counts()):
+        is_sweep = count in sweep_counts(results)
+        shown = operations if is_sweep else [*operations, *MEASURES]  # of a single T/N chart 1 has nothing
+        parts += [folded(f"{what_of(o)}, {power(count)} particles", sweep_table(results, count, o)) for o in shown]
+    return "".join(parts)
 
 
-def pattern_table(results, count, patterns, operation):
-    present = [s for s in SERIES if any(results.median(p, count, 8, s, operation) for p in patterns)
-               and (s != "absl_prefetched" or operation in BATCHES)]
-    rows = [[p] + [spread_cell(results, (p, count, 8), s, operation) for s in present] for p in patterns]
-    return table(["Pattern"] + [label(s) for s in present], rows)
+def what_of(measure):
+    if measure == "memory":
+        return MEASURES["memory"]
+    return f"{', '.join(OPERATIONS[measure])}: median (lowest–highest)"
 
 
-def sweep_section(results, count, pyplot):
-    parts = [f'<h2 id="n{count}">{power(count)} particles, uniform ids</h2><div class="charts">']
-    charts = {o: v for o, v in OPERATIONS.items() if any((("uniform", count, r, s, o) in results.times)
-                                                         for r in results.ratios(count) for s in SERIES)}
-    charts["memory"] = ("Memory", "bytes per particle")
-    for operation, (title, unit) in charts.items():
-        parts.append("<figure>" + sweep_chart(results, count, operation, title, unit, pyplot) +
-                     folded(f"Figures: {unit}" + (", median (lowest–highest)" if operation != "memory" else ""),
-                            sweep_table(results, count, operation)) + "</figure>")
-    return "".join(parts) + "</div>"
-
-
-def pattern_section(results, pyplot):
-    parts = ['<h2 id="patterns">Patterns of ids, T/N = 8</h2><p>Uniform ids, and those that simulations make. The '
-             "dashed line is twice what the default takes for uniform ids. Patterns with a stride of their own "
-             "ignore T/N.</p>"]
+def pattern_section(results):
+    """Tables of the sizes, patterns and operations that chart 2 has not."""
+    parts = []
     for count, patterns in pattern_points(results).items():
-        parts.append(f"<h3>{power(count)} particles</h3><figure>" + pattern_chart(results, count, patterns, pyplot))
-        for operation in ("find_hit", "find_half", "find_single", "rebuild", "memory"):
-            title, unit = OPERATIONS.get(operation, ("Memory", "bytes per particle"))
-            if operation == "memory":
-                present = [s for s in SERIES if any((p, count, 8, s) in results.memory for p in patterns)]
-                rows = [[p] + [spread_cell(results, (p, count, 8), s, operation) for s in present] for p in patterns]
-                content = table(["Pattern"] + [label(s) for s in present], rows)
-            else:
-                content = pattern_table(results, count, patterns, operation)
-            parts.append(folded(f"Figures: {title}, {unit}", content))
-        parts.append("</figure>")
-    return "".join(parts) if len(parts) > 1 else ""
+        for measure in ("find_hit", "find_half", "find_single", "rebuild", "memory"):
+            is_shown = count == pattern_size(results) and measure in MEASURES
+            content = pattern_table(results, count, {p: PATTERNS.get(p, p) for p in patterns
+                                                     if not (is_shown and p in PATTERNS)}, measure)
+            if content:
+                parts.append(folded(f"{what_of(measure)}, {power(count)} particles", content))
+    return "<h3>Other patterns and sizes, T/N = 8</h3>" + "".join(parts) if parts else ""
 
 
 def file_section(results):
     """The ids of the user's own file: a table of everything."""
     parts = []
     for point in [p for p in results.points() if p[0] == "file"]:
-        operations = [o for o in OPERATIONS if any((*point, s, o) in results.times for s in SERIES)]
-        rows = [[label(s)] + [spread_cell(results, point, s, o) for o in operations + ["memory"]]
-                for s in SERIES if (*point, s) in results.memory or (*point, s) in results.refused]
+        operations = [o for o in OPERATIONS if any((*point, s, o) in results.times for s in results.looks())]
+        present = {s: look for s, look in results.looks().items()
+                   if (*point, s) in results.memory or (*point, s) in results.refused}
+        rows = [[look.label] + [spread_cell(results, point, s, o) for o in operations + ["memory"]]
+                for s, look in present.items()]
         parts.append(f"<p>{point[1]} owned particles, T/N = {point[2]}; ns, bytes per particle.</p>" +
                      table(["Map"] + operations + ["memory"], rows))
     if not parts:
         return ""
     name = next((c["ids_file"] for c in results.contexts if c.get("ids_file")), "a file")
-    return f'<h2 id="file">The ids of {html.escape(os.path.basename(name))}</h2>' + "".join(parts)
-
-
-def choice_section(results):
-    parts = ['<h2 id="choose">Which policy when</h2><p>The best of our own policies for uniform ids, with those '
-             "that are within 5 % of it (≈), which the noise does not tell apart; in brackets a rival that is "
-             "faster still. The default picks among them at each rebuild.</p>"]
-    for count in results.counts():
-        rows = [[power(r)] + [choice_cell(results, ("uniform", count, r), o) for o in CHOICES.values()]
-                for r in results.ratios(count)]
-        sentences = [choice_sentence(results, count, what, o) for what, o in CHOICES.items()]
-        parts.append(f"<h3>{power(count)} particles</h3>" + table(["T/N", *CHOICES], rows) + "<ul>" +
-                     "".join(f"<li>{html.escape(s)}</li>" for s in sentences) + "</ul>")
-    return "".join(parts)
+    return f'<h3 id="file">The ids of {html.escape(os.path.basename(name))}</h3>' + "".join(parts)
 
 
 TITLE = "id maps"
 INTRODUCTION = ("From a particle's global id to its local index: our storage policies, maps of other libraries, and an "
                 "oracle: a table of 8 bytes per id whose places are known, which is the limit that random access sets. "
                 "N owned particles and 20 % ghosts (5 % images of owned ones); 64-bit ids; one thread's CPU time.")
-CLAIM_NOTE = ("Portable: the default without vector instructions, at the worst of the same points. The notes' scheme "
-              "is that of LIGGGHTS: chains, the id modulo a prime.")
-
-
-def links(results):
-    """[(anchor, text)] of the sections."""
-    return ([("choose", "Which policy when")] + [(f"n{n}", f"{power(n)} particles") for n in results.counts()] +
-            ([("patterns", "Patterns")] if pattern_points(results) else []))
+CLAIM_NOTE = ("Portable: the default without vector instructions, at the worst of the same points. LIGGGHTS' scheme: "
+              "chains, the id modulo a prime.")
 
 
 def sections(results, pyplot):
-    return (choice_section(results) + file_section(results) +
-            "".join(sweep_section(results, n, pyplot) for n in results.counts()) + pattern_section(results, pyplot))
+    return file_section(results) + sweep_section(results, pyplot) + pattern_section(results)
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -591,7 +517,7 @@ def sections(results, pyplot):
 
 def markdown(results):
     context = results.contexts[0]
-    columns = [s for s in (DEFAULT, DEFAULT_PORTABLE, "flat", "dense", NOTES, *RIVALS, "oracle")
+    columns = [s for s in (DEFAULT, DEFAULT_PORTABLE, "flat", "dense", LIGGGHTS, *RIVALS, "oracle")
                if any(key[3] == s for key in results.times)]
     lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, {context['instruction_set']}, "
              f"commit {context['commit']}. Uniform 64-bit ids, T/N = 8; ns per particle or look-up, medians of "
@@ -611,6 +537,6 @@ def markdown(results):
     for count in results.counts():
         held = [results.memory.get(("uniform", count, 8, s)) for s in columns]
         lines.append(markdown_row(["bytes per particle", power(count), *(figure_of(v) if v else "" for v in held), ""]))
-    lines += [""] + [f"- {choice_sentence(results, n, what, o)}"
-                     for n in results.counts() for what, o in CHOICES.items()]
+    lines += [""] + [f"- {power(n)} particles, {MEASURES[m].split(',')[0].lower()}: {text}." for n in results.counts()
+                     for m in MEASURES if (text := choice_text(results, n, m))]
     return "\n".join(lines) + "\n"

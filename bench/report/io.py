@@ -3,8 +3,8 @@
 import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Spread, figure_cell, figure_of, listed, markdown_row, power,
-                   quotient, ratio_cell, svg_of, table)
+from .page import (INK, Claim, Spread, colour, figure_cell, figure_of, listed, markdown_row, power, quotient,
+                   ratio_cell, svg_of, table)
 from .reading import RoomResults
 
 # (task, variant): what the rows of charts and tables are called
@@ -21,9 +21,9 @@ TASKS = {
 BY_C = {"read": "fscanf", "write": "fprintf"}
 # names, label, colour
 SERIES = (
-    (("tsubu",), "tsubu", "#2a8fd0"),
-    (("fscanf", "fprintf"), "fscanf, fprintf", "#d1603d"),
-    (("plain",), "the bytes alone", "#888888"),
+    (("tsubu",), "tsubu", colour("blue")),
+    (("fscanf", "fprintf"), "fscanf, fprintf", colour("vermilion")),
+    (("plain",), "the bytes alone", colour("grey")),
 )
 PROMISE = 5.0
 CHARTS = (("LAMMPS data files", ("read", "write")), ("Restart and VTK, binary", ("restart_read", "restart_write",
@@ -109,13 +109,13 @@ def rate_chart(results, count, title, kinds, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 1.0 + (.22 + .2 * len(present)) * len(tasks)))
     high = .8 / len(present)
     values = []
-    for k, (names, label, colour) in enumerate(present):
+    for k, (names, label, shade) in enumerate(present):
         for row, task in enumerate(tasks):
             rate = next((r for name in names if (r := results.rate(*task, name, count))), None)
             if not rate:
                 continue
             place = row + high * (k - (len(present) - 1) / 2)
-            axes.barh(place, rate, height=high * .9, color=colour, label=label if label else None, zorder=3)
+            axes.barh(place, rate, height=high * .9, color=shade, label=label if label else None, zorder=3)
             axes.plot([rate.low, rate.high], [place, place], color=INK, linewidth=1, zorder=4)
             axes.annotate(figure_of(rate), (rate.high, place), xytext=(4, 0), textcoords="offset points", va="center",
                           fontsize=8)
@@ -187,10 +187,6 @@ def time_sentence(results):
     size = results.bytes.get(("read", "full", count)) or results.bytes.get(("write", "full", count))
     of = f", a data file of {size / 1e6:.0f} MB," if size else ""
     return f"<p>A system of {power(count)} particles of style full{of} {listed(texts)}.</p>"
-
-
-def links(results):
-    return [("files", "Files")]
 
 
 FILE_TEXT = (

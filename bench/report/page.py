@@ -2,6 +2,7 @@
 """What the pages of all rooms share: medians with their spread, claims, tables, charts, style."""
 import html
 import io
+import itertools
 import math
 import os
 import re
@@ -58,8 +59,8 @@ def figure_of(value):
 
 
 def short_power(value):
-    """1e-05 -> 1e-5"""
-    return f"{value:g}".replace("e-0", "e-").replace("e+0", "e")
+    """0.01, but 1e-4"""
+    return f"{value:g}" if value >= .001 else f"{value:.0e}".replace("e-0", "e-")
 
 
 def limits(value):
@@ -76,7 +77,8 @@ def quotient(a, b):
 
 
 def middle(values):
-    """The median, and between which of the values it lies at 93 % or more, whatever their distribution."""
+    """The median, and between which of the values it lies at 93 % or more, whatever their distribution; of fewer than
+    FEWEST the lowest and the highest."""
     values = sorted(values)
     count = len(values)
     k, below = 0, 2.0 / 2**count  # the chance that the median lies outside of values[k] .. values[-1 - k]
@@ -84,6 +86,9 @@ def middle(values):
         k += 1
         below += 2.0 * math.comb(count, k) / 2**count
     return Spread(statistics.median(values), values[k], values[-1 - k])
+
+
+FEWEST = 5  # values, with which the interval of middle() holds the median at 93 %; of 3 it does at 75 %
 
 
 def scaled(value, factor):
@@ -124,7 +129,7 @@ def spans_text(runs, at, label=str, place=str):
     for k, (name, places) in enumerate(runs):
         first, last = place(places[0]), place(places[-1])
         if len(runs) == 1:
-            span = "everywhere"
+            span = "everywhere" if len(places) > 1 else f"at {at}{first}"
         elif k == 0:
             span = f"at {at}{first}" if first == last else f"up to {at}{last}"
         elif k == len(runs) - 1:
@@ -259,10 +264,13 @@ def write_picture(path, figure):
         file.write(text)
 
 
+PICTURES = itertools.count()
+
+
 def svg_of(figure, pyplot, title, cropped=True):
     """The figure as an element of the page: scales with it, takes its colours."""
     import matplotlib
-    matplotlib.rcParams["svg.hashsalt"] = title  # names inside one picture must not be those of another
+    matplotlib.rcParams["svg.hashsalt"] = f"{title} {next(PICTURES)}"  # no name is that of another on the page
     out = io.StringIO()
     figure.savefig(out, format="svg", **({"bbox_inches": "tight", "pad_inches": .06} if cropped else {}))
     pyplot.close(figure)
@@ -270,6 +278,12 @@ def svg_of(figure, pyplot, title, cropped=True):
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.S)
     text = re.sub(r'(<svg[^>]*?) width="([\d.]+)pt" height="[\d.]+pt"', r'\1 style="width:100%;max-width:\2pt"', text,
                   count=1)
+    used = set(re.findall(r"#(\w+)", text))
+    text = re.sub(r' id="([^"]*)"', lambda found: found[0] if found[1] in used else "", text)
+    text = re.sub(r' (?:d|x|y|transform)="[^"]*"', lambda found: re.sub(r"(\.\d\d)\d+", r"\1", found[0]),
+                  text)  # hundredths of a point are enough
+    text = re.sub(r"(px|pt) 'DejaVu Sans'[^;]*", r"\1 sans-serif", text)  # the page has its own font
+    text = re.sub(r"\s*\n\s*", " ", text).replace("> <", "><")
     text = text.replace("<svg", f'<svg role="img" aria-label="{html.escape(title, quote=True)}"', 1)
     for name, (stand_in, *_) in PALETTE.items():
         text = text.replace(stand_in, f"var(--{name})")
@@ -283,6 +297,19 @@ def plain_ticks(axis):
     wide = math.log10(high / low) > 2.4
     axis.set_major_locator(LogLocator(subs=(1, 3) if wide else (1, 2, 5), numticks=20))
     axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
+
+
+def log_ticks(axis):
+    """Powers of ten, or as plain_ticks where there is not one for each."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+    low, high = axis.get_view_interval()
+    if high / low < 30:
+        plain_ticks(axis)
+        axis.set_minor_formatter(NullFormatter())
+        return
+    axis.set_major_locator(LogLocator(base=10, numticks=9))
+    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if .01 <= v < 1e4 else f"1e{round(math.log10(v))}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -405,5 +432,5 @@ def markdown_row(cells):
 
 def markdown_claims(claims):
     """The lines of a table, after an empty one."""
-    return ["", markdown_row([h or "holds" for h in CLAIM_HEAD]), "|" + "---|" * len(CLAIM_HEAD),
+    return ["", markdown_row([h or "verdict" for h in CLAIM_HEAD]), "|" + "---|" * len(CLAIM_HEAD),
             *(markdown_row(claim.cells()) for claim in claims)]

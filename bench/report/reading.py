@@ -4,11 +4,12 @@ import glob
 import gzip
 import json
 import os
+import zlib
 
 from .page import Refusal
 
 REQUIRED_CONTEXT = ("machine", "compiler", "flags", "commit", "instruction_set", "huge_pages", "date")
-ROOMS = ("id", "domain", "store", "io", "comm", "dem")
+ROOMS = ("id", "domain", "store", "io", "comm", "dem")  # in the order of the page
 
 
 class RoomResults:
@@ -46,11 +47,13 @@ def contents_of(path):
     try:
         with opened as file:
             content = json.load(file)
-    except ValueError as fault:
+    except (ValueError, EOFError, zlib.error) as fault:  # the latter two of a .gz that is cut short
         raise Refusal(f"{path}: not the JSON of a run ({fault})") from fault
     context = content.get("context", {}) if isinstance(content, dict) else {}
     missing = [key for key in REQUIRED_CONTEXT if not context.get(key)]
     if missing:
         raise Refusal(f"{path}: the context lacks {', '.join(missing)}: figures without it are worth nothing; run a "
                       "program of bench/, not Google Benchmark alone")
+    if not isinstance(content.get("benchmarks"), list):
+        raise Refusal(f"{path}: no list of benchmarks in it, which is where the figures of a run stand")
     return context, [row for row in content["benchmarks"] if "group_seconds" not in row]

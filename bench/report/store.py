@@ -2,16 +2,14 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, figure_of, folded, listed, markdown_row, middle, power,
+from .drawing import Look
+from .page import (GRID, INK, Claim, as_good, colour, figure_of, folded, listed, markdown_row, middle, power,
                    quotient, ratio_cell, spread_text, svg_of, table)
 from .reading import RoomResults
 
-# name: (label, colour, marker)
-LAYOUTS = {
-    "soa": ("soa", "#2a8fd0", "o"),
-    "aos": ("aos", "#d1603d", "s"),
-    "aosoa16": ("aosoa<16>", "#4fa35a", "^"),
-}
+LOOKS = {"soa": Look("soa, the default: an array per field", "blue", "o", short="soa"),
+         "aos": Look("aos: an array of records", "vermilion", "s", "--", short="aos"),
+         "aosoa16": Look("aosoa<16>: blocks of 16", "green", "^", "-.", short="aosoa<16>")}
 # name: (title, unit, what is done, in a sentence)
 OPERATIONS = {
     "update": ("Position and velocity update", "ns per particle", "are moved"),
@@ -22,13 +20,12 @@ OPERATIONS = {
 }
 ORDERS = {"random": ("at random", ":"), "morton": ("Morton", "--"), "hilbert": ("Hilbert", "-")}
 APPENDS = {
-    "geometric": ("geometric_growth (default)", "#2a8fd0", "o"),
-    "block": ("block_growth", "#d1603d", "s"),
-    "std_vector": ("std::vector of records", "#888888", "x"),
+    "geometric": ("geometric_growth (default)", colour("blue"), "o"),
+    "block": ("block_growth", colour("vermilion"), "s"),
+    "std_vector": ("std::vector of records", colour("grey"), "x"),
 }
 FIELD_BYTES = 96  # id, position, velocity, force, radius, mass
 RATIO_LIMIT = 1.05
-SAME = 1.05       # layouts whose times are closer than this are called equal
 
 TITLE = "particle store"
 INTRODUCTION = (f"What a layout costs: particles of {FIELD_BYTES} bytes (id, position, velocity, force, radius, mass) "
@@ -110,7 +107,7 @@ class Results(RoomResults):
 
 
 def label(layout):
-    return LAYOUTS[layout][0]
+    return LOOKS[layout].short
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -122,7 +119,7 @@ def all_claims(results):
     for operation, (title, *_) in OPERATIONS.items():
         claim = Claim(f"{title}: store / by hand, same layout", RATIO_LIMIT, at_least=False)
         for count in results.counts(operation):
-            for layout in LAYOUTS:
+            for layout in LOOKS:
                 claim.add(results.ratio(layout, operation, count), f"{label(layout)}, {power(count)}")
         claims.append(claim)
     memory = Claim("Memory of a place for a particle / the sizes of its fields", 1.01, at_least=False)
@@ -174,18 +171,18 @@ def pair_chart(results, operation, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 3.3))
     axes.set(xscale="log", yscale="log", xlabel="particles", ylabel=unit)
     values = []
-    for k, layout in enumerate(LAYOUTS):
+    for k, layout in enumerate(LOOKS):
         measured = [n for n in counts if (layout, operation, n) in results.pairs]
         if not measured:
             continue
-        name, colour, marker = LAYOUTS[layout]
+        look = LOOKS[layout]
         ours = [results.time(layout, operation, n) for n in measured]
         theirs = [results.time_by_hand(layout, operation, n) for n in measured]
         shift = 1.12 ** (k - 1)
-        bars(axes, [n * shift / 1.03 for n in measured], ours, color=colour, marker=marker, markersize=5, label=name,
-             zorder=4)
-        bars(axes, [n * shift * 1.03 for n in measured], theirs, color=colour, marker=marker, markersize=6.5,
-             markerfacecolor="none", linestyle=(0, (4, 2)), alpha=.8, label=f"{name}, by hand", zorder=3)
+        bars(axes, [n * shift / 1.03 for n in measured], ours, color=look.colour, marker=look.marker, markersize=5,
+             label=look.short, zorder=4)
+        bars(axes, [n * shift * 1.03 for n in measured], theirs, color=look.colour, marker=look.marker, markersize=6.5,
+             markerfacecolor="none", linestyle=(0, (4, 2)), alpha=.8, label=f"{look.short}, by hand", zorder=3)
         values += [v for pair in zip(ours, theirs) for v in pair]
     place_counts(axes, counts)
     place_times(axes, [v.low for v in values] + [v.high for v in values])
@@ -200,15 +197,15 @@ def ratio_chart(results, pyplot):
     rows = [(operation, n) for operation in OPERATIONS for n in results.counts(operation)]
     figure, axes = pyplot.subplots(figsize=(5.6, .6 + .26 * len(rows)))
     highest = lowest = 1.0
-    for layout, (name, colour, marker) in LAYOUTS.items():
+    for layout, look in LOOKS.items():
         found = [(k, r) for k, (o, n) in enumerate(rows) if (r := results.ratio(layout, o, n))]
         if not found:
             continue
-        shift = .24 * (list(LAYOUTS).index(layout) - 1)
+        shift = .24 * (list(LOOKS).index(layout) - 1)
         places, ratios = zip(*found)
         limits = [[r - r.low for r in ratios], [r.high - r for r in ratios]]
-        axes.errorbar(ratios, [k + shift for k in places], xerr=limits, color=colour, marker=marker,
-                      markersize=4.5, linestyle="none", elinewidth=1, label=name)
+        axes.errorbar(ratios, [k + shift for k in places], xerr=limits, color=look.colour,
+                      marker=look.marker, markersize=4.5, linestyle="none", elinewidth=1, label=look.short)
         highest = max(highest, *ratios, *(min(r.high, 1.5 * r) for r in ratios))
         lowest = min(lowest, *ratios, *(r.low for r in ratios))
     axes.axvline(1, color=INK, linewidth=.8)
@@ -236,13 +233,14 @@ def sort_chart(results, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 3.6))
     axes.set(xscale="log", yscale="log", xlabel="particles", ylabel="ns per particle")
     values = []
-    for k, (layout, (name, colour, marker)) in enumerate(LAYOUTS.items()):
+    for k, (layout, look) in enumerate(LOOKS.items()):
         for order, (order_name, line) in ORDERS.items():
             found = [(n * 1.06 ** (k - 1), v) for n in counts if (v := results.gather(layout, order, n))]
             if found:
                 places, times = zip(*found)
-                axes.plot(places, times, color=colour, marker=marker, markersize=4.5, linestyle=line, linewidth=1.4,
-                          markerfacecolor=colour if order == "hilbert" else "none", label=f"{name}, {order_name}")
+                axes.plot(places, times, color=look.colour, marker=look.marker, markersize=4.5, linestyle=line,
+                          linewidth=1.4, markerfacecolor=look.colour if order == "hilbert" else "none",
+                          label=f"{look.short}, {order_name}")
                 values += times
     place_counts(axes, counts)
     place_times(axes, values)
@@ -257,10 +255,10 @@ def copies_chart(results, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 3.3))
     axes.set(xscale="log", yscale="log", xlabel="appends, one by one", ylabel="elements copied")
     for policy in ("geometric", "block"):
-        name, colour, marker = APPENDS[policy]
+        name, shade, marker = APPENDS[policy]
         found = sorted((n, copied) for (p, n), (copied, _) in results.copies.items() if p == policy and copied > 0)
         if found:
-            axes.plot(*zip(*found), color=colour, marker=marker, markersize=5, linewidth=1.5, label=name)
+            axes.plot(*zip(*found), color=shade, marker=marker, markersize=5, linewidth=1.5, label=name)
     counts = sorted({n for _, n in results.copies})
     by_blocks = results.copies.get(("block", 10**8))
     if by_blocks:
@@ -279,11 +277,11 @@ def append_chart(results, pyplot):
     figure, axes = pyplot.subplots(figsize=(5.6, 3.3))
     axes.set(xscale="log", yscale="log", xlabel="appends, one by one", ylabel="ns per append")
     values = []
-    for series, (name, colour, marker) in APPENDS.items():
+    for series, (name, shade, marker) in APPENDS.items():
         found = [(n, middle(results.appends[(series, n)])) for n in counts if (series, n) in results.appends]
         if found:
             places, times = zip(*found)
-            bars(axes, places, times, color=colour, marker=marker, markersize=5, label=name)
+            bars(axes, places, times, color=shade, marker=marker, markersize=5, label=name)
             values += [v for t in times for v in (t.low, t.high)]
     place_counts(axes, counts)
     place_times(axes, values)
@@ -298,9 +296,9 @@ def append_chart(results, pyplot):
 
 
 def fastest(results, operation, count):
-    """(layout, median) of those as good as the fastest; the fastest first."""
-    found = sorted((t, layout) for layout in LAYOUTS if (t := results.time(layout, operation, count)))
-    return [(layout, t) for t, layout in found if t <= found[0][0] * SAME]
+    """(layout, median) of those that are within noise of the fastest; the fastest first."""
+    times = {layout: results.time(layout, operation, count) for layout in LOOKS}
+    return [(layout, times[layout]) for layout in as_good(times)]
 
 
 def strengths(results, layout):
@@ -333,7 +331,7 @@ def choice_sentences(results):
     if ours:
         sentences.append("soa, the default, is as good as any in " +
                          listed([strength_text(results, o, n) for o, n in ours.items()]) + ".")
-    for layout in LAYOUTS:
+    for layout in LOOKS:
         if layout == "soa" or not any((layout, o) == key[:2] for key in results.pairs for o in OPERATIONS):
             continue
         better = {}  # where soa is not as good
@@ -341,11 +339,11 @@ def choice_sentences(results):
             only = [n for n in counts if n not in ours.get(operation, [])]
             if only:
                 better[operation] = only
-        best, worst = advantage(results, layout, OPERATIONS)
+        best, worst = advantage(results, layout, better)[0], advantage(results, layout, OPERATIONS)[1]
         loss = (f"soa takes {figure_of(1 / worst[0])} times as long at most" if worst[0] > 1 else
                 f"it takes up to {figure_of(1 / worst[0])} times as long as soa ({worst[1].replace('_', ' ')}, "
                 f"{power(worst[2])})")
-        if better and best[0] > SAME:
+        if better:
             sentences.append(f"Choose {label(layout)} when most of the time goes into " +
                              listed([strength_text(results, o, n) for o, n in better.items()]) +
                              f": soa takes up to {figure_of(best[0])} times as long there; elsewhere {loss}.")
@@ -360,12 +358,12 @@ def choice_sentences(results):
 
 def pair_table(results, operation):
     head = ["Particles"]
-    for layout in LAYOUTS:
+    for layout in LOOKS:
         head += [label(layout), "by hand", "ratio"]
     rows = []
     for count in results.counts(operation):
         row = [power(count)]
-        for layout in LAYOUTS:
+        for layout in LOOKS:
             found = results.pairs.get((layout, operation, count))
             if found:
                 row += [f'<td class="figure">{spread_text([store for store, *_ in found])}</td>',
@@ -391,7 +389,7 @@ def fastest_table(results):
 
 def memory_table(results):
     rows = []
-    for layout in LAYOUTS:
+    for layout in LOOKS:
         found = {n: held for (l, n), held in results.bytes.items() if l == layout}
         if found:
             per_place = max(held[0] for held in found.values())
@@ -411,7 +409,7 @@ def sort_table(results):
             times = results.orders[(curve, count)]
             order = middle(times)
             row = [power(count), ORDERS[curve][0], f'<td class="figure">{spread_text(times)}</td>']
-            for layout in LAYOUTS:
+            for layout in LOOKS:
                 before, after = (results.gather(layout, o, count) for o in ("random", curve))
                 row.append(f"{figure_of(before)} → {figure_of(after)}" if before and after else "")
                 moved = results.time(layout, "permute", count)
@@ -420,7 +418,7 @@ def sort_table(results):
                            "–" if moved else "")
             rows.append(row)
     head = ["Particles", "Curve", "Order, ns"]
-    for layout in LAYOUTS:
+    for layout in LOOKS:
         head += [f"{label(layout)}: gather, ns", "pays after"]
     return table(head, rows)
 
@@ -443,10 +441,6 @@ def append_table(results):
             f'<td class="figure">{spread_text(results.appends[(series, count)])}</td>'
             if (series, count) in results.appends else "" for series in APPENDS])
     return table(["Appends, ns each"] + [name for name, *_ in APPENDS.values()], rows)
-
-
-def links(results):
-    return [("store", "Particle store")]
 
 
 PAIR_TEXT = (
@@ -504,9 +498,10 @@ def markdown_carried(results):
     count = max(n for *_, n in results.carried)
     sizes = sorted({size for _, _, size, n in results.carried if n == count})
     lines = [f"ns per particle, {power(count)} of them, by the bytes that each carries.", "",
-             markdown_row(["operation", "layout", *(f"{size} bytes" for size in sizes)]), "|" + "---|" * (2 + len(sizes))]
+             markdown_row(["operation", "layout", *(f"{size} bytes" for size in sizes)]),
+             "|" + "---|" * (2 + len(sizes))]
     for operation, name in (("update", "update"), ("permute", "sort"), ("pack", "pack, per packed particle")):
-        for layout in LAYOUTS:
+        for layout in LOOKS:
             times = [results.carried_time(layout, operation, size, count) for size in sizes]
             lines.append(markdown_row([name, f"`{label(layout)}`", *(figure_of(t) if t else "" for t in times)]))
     return lines
@@ -522,7 +517,7 @@ def markdown(results):
                   "hand.", "",
                   markdown_row(["operation", "layout", *map(power, counts)]), "|" + "---|" * (2 + len(counts))]
         for operation, (title, *_) in OPERATIONS.items():
-            for layout in LAYOUTS:
+            for layout in LOOKS:
                 cells = [f"{figure_of(t)} ({results.ratio(layout, operation, n):.2f}x)"
                          if (t := results.time(layout, operation, n)) else "" for n in counts]
                 lines.append(markdown_row([title, f"`{label(layout)}`", *cells]))
@@ -533,7 +528,7 @@ def markdown(results):
         counts = results.sorted_counts()
         lines += ["", "ns per particle of a gather from 12 neighbours, by the order of the particles.", "",
                   markdown_row(["layout", "order", *map(power, counts)]), "|" + "---|" * (2 + len(counts))]
-        for layout in LAYOUTS:
+        for layout in LOOKS:
             for order, (name, _) in ORDERS.items():
                 cells = [figure_of(t) if (t := results.gather(layout, order, n)) else "" for n in counts]
                 lines.append(markdown_row([f"`{label(layout)}`", name, *cells]))

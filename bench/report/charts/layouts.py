@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Chart 3: which layout, as particles carry more."""
-from ..drawing import Look, label_ends, legend, new_panel, panel, panels, tables
+from ..drawing import label_ends, legend, new_panel, panel, panels, tables
 from ..page import apart, figure_of, listed, plain_ticks, power, runs_of_choice, spans_text, spread_text, table
+from ..store import LOOKS
 
 ROOM = "store"
 TITLE = "Which layout, and what does another field cost?"
@@ -9,9 +10,6 @@ QUESTION = ("Time per particle over the bytes that each carries. An update reads
             "all; a pack copies all of every third particle into a message. Bars: where the median lies, at 93 % or "
             "more.")
 ABSENT = "bench/run --only store"
-LOOKS = {"soa": Look("soa, the default: an array per field", "blue", "o", short="soa"),
-         "aos": Look("aos: an array of records", "vermilion", "s", "--", short="aos"),
-         "aosoa16": Look("aosoa<16>: blocks of 16", "green", "^", "-.", short="aosoa<16>")}
 OPERATIONS = {"update": ("Update, ns per particle", "updates"), "permute": ("Sort, ns per particle", "sorts"),
               "pack": ("Pack, ns per packed particle", "packs")}
 
@@ -60,28 +58,35 @@ def operation_text(results, operation, count):
     costs = lambda size: {l: t for l in LOOKS if (t := results.carried_time(l, operation, size, count))}
     runs = runs_of_choice(sizes, costs)
     if not runs:
-        return ""
-    ends = []
-    for size in (sizes[0], sizes[-1]):
+        return None
+    numbers = []
+    for size in dict.fromkeys((sizes[0], sizes[-1])):
         values = costs(size)
-        ends.append(listed([f"{LOOKS[l].short} {figure_of(v)}" for l, v in values.items()]) + f" ns at {size}")
+        numbers.append(listed([f"{LOOKS[l].short} {figure_of(v)}" for l, v in values.items()]) + f" ns at {size} bytes")
     choice = (LOOKS[runs[0][0]].short if len(runs) == 1 else
               spans_text(runs, "", lambda l: LOOKS[l].short, lambda b: f"{b} bytes"))
-    return f"{choice} where {OPERATIONS[operation][1]} count ({'; '.join(ends)} bytes)"
+    return f"{choice} where {OPERATIONS[operation][1]} count", "; ".join(numbers)
 
 
-def sentence(results):
-    count = counts_of(results)[-1]
-    texts = [t for o in OPERATIONS if (t := operation_text(results, o, count))]
-    growth = {}
+def growth_text(results, count):
+    """How much an update slows down as particles carry what it does not need."""
     sizes = sizes_of(results, count)
-    for layout in LOOKS:
-        first, last = (results.carried_time(layout, "update", b, count) for b in (sizes[0], sizes[-1]))
+    texts = []
+    for layout, look in LOOKS.items():
+        first, last = (results.carried_time(layout, "update", size, count) for size in (sizes[0], sizes[-1]))
         if first and last and len(sizes) > 1:
-            growth[layout] = "as long, within noise," if not apart(first, last) else f"{last / first:.1f} times as long"
-    grown = listed([f"{g} in {LOOKS[l].short}" for l, g in growth.items()])
-    return (f"For {power(count)} particles choose {', '.join(texts)}; from {sizes[0]} to {sizes[-1]} bytes an update, "
-            f"which needs no more of them, comes to take {grown}.")
+            growth = f"{last / first:.1f} times as long" if apart(first, last) else "as long within noise"
+            texts.append(f"{growth} in {look.short}")
+    if not texts:
+        return ""
+    return f"from {sizes[0]} to {sizes[-1]} bytes an update, which needs no more of them, comes to take {listed(texts)}"
+
+
+def advice(results):
+    count = counts_of(results)[-1]
+    found = [t for o in OPERATIONS if (t := operation_text(results, o, count))]
+    growth = growth_text(results, count)
+    return f"For {power(count)} particles choose", found + ([(growth, "")] if growth else [])
 
 
 def time_cell(results, cell):

@@ -20,4 +20,5 @@ import sys
 from report.__main__ import main  # the package: python takes it before the module of the same name
 
 if __name__ == "__main__":
+    sys.stdout.reconfigure(encoding="utf-8")  # a terminal may have no µ by itself
     sys.exit(main(__doc__.split("\n\n")[0]))

@@ -86,7 +86,6 @@ def main(description):
     text_out = os.path.splitext(arguments.out)[0] + ".txt"
     if arguments.compare and text_out == arguments.out:
         parser.error(f"{arguments.out} is where the text beside the page goes: name a page, such as compare.html")
-    sys.stdout.reconfigure(encoding="utf-8")  # of a terminal that has no µ
     try:
         if arguments.compare:
             old, new = map(compare.Run, arguments.compare)

@@ -133,6 +133,11 @@ def label(series):
     return LOOKS[series].label if series in LOOKS else series
 
 
+def head_label(series):
+    """Without what explains it, which stands in the legend."""
+    return label(series).split(": ")[0]
+
+
 def short_label(series):
     return LOOKS[series].short if series in LOOKS else series
 
@@ -411,12 +416,12 @@ def pattern_size(results):
 def pattern_table(results, count, patterns, measure):
     """Of {pattern: what it is called}; empty if nothing was measured."""
     rows, present = {}, {}
-    for series, look in results.looks().items():
+    for series in results.looks():
         if series == "absl_prefetched" and measure not in BATCHES:
             continue
         cells = [spread_cell(results, (p, count, 8), series, measure) for p in patterns]
         if any('class="figure"' in cell for cell in cells):
-            present[series] = look.label
+            present[series] = head_label(series)
             for pattern, cell in zip(patterns, cells):
                 rows.setdefault(pattern, []).append(cell)
     if not present:
@@ -522,7 +527,7 @@ def markdown(results):
     lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, {context['instruction_set']}, "
              f"commit {context['commit']}. Uniform 64-bit ids, T/N = 8; ns per particle or look-up, medians of "
              f"{min(len(t) for t in results.times.values())} interleaved repetitions.", "",
-             markdown_row(["operation", "N", *(label(s) for s in columns), "best rival / default"]),
+             markdown_row(["operation", "N", *(head_label(s) for s in columns), "best rival / default"]),
              "|" + "---|" * (len(columns) + 3)]
     for operation in ("rebuild", "update", "find_hit", "find_half", "find_near", "find_single", "find_dependent"):
         for count in results.counts():

@@ -55,7 +55,6 @@ public:
         if (goes_on) {
             rows = finished_rows(conditions);
             if (!finished_.empty()) {
-                std::erase_if(conditions, [](const auto& one) { return one.first == "resumed"; });
                 conditions.emplace_back("resumed", conditions.front().second);  // the date
                 conditions.front().second = begun_;
             }
@@ -63,7 +62,11 @@ public:
         // A new file takes the place of the old one only when it is whole.
         const std::string text = head(conditions) + rows;
         const std::string fresh = path + ".new";
-        std::ofstream(fresh, std::ios::binary) << text << foot;
+        std::ofstream made(fresh, std::ios::binary);
+        if (!made) throw unwritable();
+        made << text << foot;
+        made.close();
+        if (!made) throw torn();
         if (std::rename(fresh.c_str(), path.c_str()) != 0) throw unwritable();
         file_.open(path, std::ios::in | std::ios::out | std::ios::binary);
         if (!file_) throw unwritable();
@@ -80,7 +83,7 @@ public:
         const std::string line = (is_first_ ? "\n  {" : ",\n  {") + row + "}";
         file_.seekp(end_);
         file_ << line + foot << std::flush;
-        if (!file_) throw std::runtime_error(path_ + ": could not be written to its end; is the disk full?");
+        if (!file_) throw torn();
         end_ += static_cast<std::streamoff>(line.size());
         is_first_ = false;
     }
@@ -95,6 +98,9 @@ private:
 
     [[nodiscard]] std::runtime_error unwritable() const {
         return std::runtime_error(path_ + ": cannot be written; name a file in a folder that exists");
+    }
+    [[nodiscard]] std::runtime_error torn() const {
+        return std::runtime_error(path_ + ": could not be written to its end; is the disk full?");
     }
     [[nodiscard]] static std::string head(const run_conditions& conditions) {
         std::string text = "{\n\"context\": {";

@@ -19,7 +19,7 @@ namespace {
 
 void slow_rows(bench::row_reporter& report, const std::string& group) {
     for (int repetition = 0; repetition < 8; ++repetition) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
         report.counted(group + "/row:" + std::to_string(repetition), {{"value", repetition + 0.5}});
     }
     report.refused(group + "/row:last", "a \"quoted\" sentence, with\na new line");

@@ -7,13 +7,14 @@ import importlib.util
 import io
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
 
-from report import compare, dem, front, id_map, page, store  # noqa: E402
+from report import compare, dem, drawing, front, id_map, page, store  # noqa: E402
 from report.__main__ import Figures, ROOMS, main  # noqa: E402
 from report.charts import layouts, patterns, precision, sparsity, stability  # noqa: E402
 
@@ -71,6 +72,10 @@ class Noise(unittest.TestCase):
         self.assertEqual(runs, [("a", [1, 2]), ("b", [4])])
         self.assertEqual(page.spans_text(runs, "x = "), "a up to x = 2 and b at 4")
 
+    def test_one_place_is_not_everywhere(self):
+        self.assertEqual(page.spans_text([("a", [8])], "T/N = "), "a at T/N = 8")
+        self.assertEqual(page.spans_text([("a", [1, 8])], "T/N = "), "a everywhere")
+
     def test_powers(self):
         self.assertEqual([page.power(n) for n in (1, 64, 10000, 400000, 10**6, 50123)],
                          ["1", "64", "1e4", "4e5", "1e6", "50123"])
@@ -80,7 +85,7 @@ class Sentences(unittest.TestCase):
     def test_the_table_changes_where_it_is_worse_beyond_noise(self):
         results = results_of(id_map, map_rows({"dense": {1: 1, 8: 2, 64: 20}, "flat": {1: 3, 8: 3, 64: 4},
                                                "adaptive": {1: 1, 8: 2, 64: 6}, "boost_flat_map": {1: 9, 8: 9, 64: 9}}))
-        text = sparsity.sentence(results)
+        text = front.sentence(sparsity, results)
         self.assertIn("for batched look-ups dense up to T/N = 8 and flat at 64 (dense 2.00 ns, boost 9.00 at 8; "
                       "flat 4.00 ns, boost 9.00 at 64)", text)
         self.assertIn("within noise of the best of our own tables at 6 of 9 points", text)
@@ -89,23 +94,23 @@ class Sentences(unittest.TestCase):
     def test_a_noisy_difference_is_called_noise(self):
         wild = (1, .5, 2, .7, 1.5)
         results = results_of(id_map, map_rows({"flat": {1: 10, 8: 10}, "boost_flat_map": {1: 11, 8: 11}}, noise=wild))
-        self.assertIn("flat everywhere (flat 10.0 ns, boost 11.0, within noise at 8)", sparsity.sentence(results))
+        self.assertIn("flat everywhere (flat 10.0 ns, boost 11.0 within noise at 8)", front.sentence(sparsity, results))
 
     def test_a_crossing_within_noise_is_not_marked(self):
         rows = lambda noise: map_rows({"dense": {1: 1, 8: 10}, "flat": {1: 2, 8: 5}}, noise=noise)
-        found = sparsity.meetings_of(results_of(id_map, rows(NOISE)), 100000, "find_hit")
+        found = id_map.crossings(results_of(id_map, rows(NOISE)), 100000, "find_hit")
         self.assertEqual([names for _, *names in found], [["dense", "flat"]])
         self.assertTrue(1 < found[0][0] < 8)
-        self.assertEqual(sparsity.meetings_of(results_of(id_map, rows((1, .2, 5, .5, 2))), 100000, "find_hit"), [])
+        self.assertEqual(id_map.crossings(results_of(id_map, rows((1, .2, 5, .5, 2))), 100000, "find_hit"), [])
 
     def test_patterns_name_the_worst_and_the_degenerate(self):
         rows = map_rows({"adaptive": {8: 2}, "boost_flat_map": {8: 6}}) + \
             map_rows({"adaptive": {8: 5}, "boost_flat_map": {8: 5.1}}, pattern="random_62_bits")
         rows += [{"name": "random_62_bits/N:100000/ratio:8/dense", "refused": "too wide"},
                  {"name": "random_62_bits/N:100000/ratio:8/chained_mod_prime/rebuild", "degenerate": 777.0}]
-        text = patterns.sentence(results_of(id_map, rows))
-        self.assertIn("2.00 ns (uniform, to compare) to 5.00 ns (62 random bits)", text)
-        self.assertIn("1.02 to 3.00 times that, beyond noise in 1 of 2 patterns", text)
+        text = front.sentence(patterns, results_of(id_map, rows))
+        self.assertIn("a batched look-up of 1e5 takes 2.00 to 5.00 ns (uniform, to compare; 62 random bits)", text)
+        self.assertIn("1.02 to 3.00 times that, beyond noise in 1 of 2 patterns (62 random bits; uniform", text)
         self.assertIn("dense is refused for 1 of 2", text)
         self.assertIn("visits 777 nodes", text)
 
@@ -114,11 +119,11 @@ class Sentences(unittest.TestCase):
                  "real_time": t * f}
                 for layout, times in {"soa": (2, 2), "aos": (3, 9)}.items() for size, t in zip((96, 544), times)
                 for operation in ("update", "permute", "pack") for k, f in enumerate(NOISE)]
-        text = layouts.sentence(results_of(store, rows))
+        text = front.sentence(layouts, results_of(store, rows))
         self.assertIn("For 4e5 particles", text)
-        self.assertIn("soa where updates count (soa 2.00 and aos 3.00 ns at 96; soa 2.00 and aos 9.00 ns at 544 bytes)",
-                      text)
-        self.assertIn("as long, within noise, in soa and 3.0 times as long in aos", text)
+        self.assertIn("soa where updates count (soa 2.00 and aos 3.00 ns at 96 bytes; soa 2.00 and aos 9.00 ns at "
+                      "544 bytes)", text)
+        self.assertIn("as long within noise in soa and 3.0 times as long in aos", text)
 
     @staticmethod
     def scenes(pefrl_cost):
@@ -133,22 +138,25 @@ class Sentences(unittest.TestCase):
 
     def test_precision_chooses_the_cheapest_that_reaches_the_tolerance(self):
         # 1e-2 takes Verlet 10.37 steps and PEFRL 5.37 of four evaluations
-        text = precision.sentence(self.scenes(pefrl_cost=40))
-        self.assertIn("choose velocity Verlet, which is within noise or 2 % of the cheapest in 1 of 1 scenes", text)
+        text = front.sentence(precision, self.scenes(pefrl_cost=40))
+        self.assertIn("below 1 % choose velocity Verlet, within noise or 2 % of the cheapest in 1 of 1 scenes", text)
         self.assertIn("PEFRL costs 2.07 to 2.07 times that", text)
-        self.assertIn("below 1e-5 PEFRL", text)  # which Verlet does not reach here
-        self.assertIn("choose PEFRL", precision.sentence(self.scenes(pefrl_cost=5)))
+        self.assertIn("below 1e-5 choose PEFRL", text)  # which Verlet does not reach here
+        self.assertIn("below 1 % choose PEFRL", front.sentence(precision, self.scenes(pefrl_cost=5)))
 
     def test_stability_tells_theory_and_what_was_lost(self):
         rows = [{"name": "dem/walls/0/velocity_verlet/double", "omega_dt": w, "error": e}
                 for w, e in ((1, .1), (1.95, 1), (2.05, 1e9), (2.5, 1e9))]
         rows += [{"name": "dem/settle/bed/velocity_verlet/double", "omega_dt": w, "coordination": c, "kinetic": 1e-6,
                   "packing": .59, "height": 1, "limit": .6, "nanoseconds_per_second": 1} for w, c in
-                 ((.3, 4.5), (.5, 4.6), (.7, 4.55), (.9, 2.0))]
-        text = stability.sentence(results_of(dem, rows))
+                 ((.3, 4.5), (.5, 4.6), (.7, 4.55), (.9, 2.0), (1.0, 1.5))]
+        text = front.sentence(stability, results_of(dem, rows))
         self.assertIn("Keep ω dt below 2.00 with velocity Verlet (lost at 2.05)", text)
         self.assertIn("longest_time_step allows, 0.60", text)
-        self.assertIn("4.50 to 4.60 contacts per particle, from 0.9 on 2.00 and less", text)
+        self.assertIn("4.50 to 4.60 contacts per particle; a longer one is refused by the guards", text)
+        self.assertIn("there are 2.00 and less from 0.9 on", text)
+        after = {**rows[-1], "omega_dt": 1.1, "coordination": 4.9}
+        self.assertIn("there are 2.00 from 0.9 on", front.sentence(stability, results_of(dem, rows + [after])))
 
 
 class Folder(unittest.TestCase):
@@ -184,9 +192,34 @@ class Drawing(Folder):
         for stand_in, *_ in page.PALETTE.values():
             self.assertNotIn(stand_in, text)  # all colours are those of the page, light or dark
 
-    def test_labels_are_moved_apart_in_their_order(self):
-        from report.drawing import spread_out
-        moved = spread_out([.5, .51, .52, .9], .1)
+    def test_a_series_of_the_users_own_is_on_the_charts(self):
+        times = {"flat": {1: 3, 8: 3}, "tree": {1: 5, 8: 6}, "bush": {1: 7, 8: 7}}
+        results = results_of(id_map, map_rows(times) + map_rows({"flat": {8: 3}, "tree": {8: 5}}, pattern="lattice"))
+        pyplot = page.plotting()
+        for chart in (sparsity, patterns):
+            drawn, figures = chart.drawn(results, pyplot), chart.figures(results)
+            for name in ("tree", "bush"):
+                self.assertTrue(f"</svg>{name}</li>" in drawn, "not in the legend")
+                self.assertTrue(name in figures, "not in a table")
+        self.assertEqual(sparsity.drawn(results, pyplot).count(">tree</text>"), 4)  # at the end of its line
+        looks = [results.looks()[name] for name in ("tree", "bush")]
+        self.assertEqual(len({(look.marker, look.line) for look in looks}), 2)
+        self.assertEqual(list(results_of(id_map, map_rows({"flat": {1: 1}})).looks()), ["flat"])  # nothing is kept
+
+    def test_no_name_on_the_page_is_there_twice(self):
+        rows = map_rows({"dense": {1: 1, 8: 2}, "flat": {1: 3, 8: 3}, "adaptive": {1: 1, 8: 2}})
+        out = os.path.join(self.folder.name, "page.html")
+        sys.argv = ["report.py", self.file("id.json", rows), "-o", out]
+        self.assertEqual(main("draws"), 0)
+        with open(out, encoding="utf-8") as file:
+            names = re.findall(r'\bid="([^"]+)"', file.read())
+        self.assertEqual(len(names), len(set(names)))
+        self.assertGreater(len(names), 20)
+
+
+class Labels(unittest.TestCase):
+    def test_they_are_moved_apart_in_their_order(self):
+        moved = drawing.spread_out([.5, .51, .52, .9], .1)
         self.assertEqual(moved, sorted(moved))
         self.assertTrue(all(b - a > .099 for a, b in zip(moved, moved[1:])), moved)
 
@@ -206,6 +239,33 @@ class Front(Folder):
         figures = Figures([self.file("dem.json", [{"name": "dem/missing/LAMMPS/no lmp here/-"}])])
         self.assertIn("LAMMPS (would stand in the appendix on scenes; no lmp here)", front.missing(figures, ROOMS))
 
+    def test_a_chart_is_missing_though_its_room_is_there(self):
+        pairs = [{"name": "store/pair/soa/update/N:10000", "repetition_index": k, "store_ns": 2 * f, "by_hand_ns": 2,
+                  "ratio": f, "bytes_per_place": 96, "bytes_per_particle": 96} for k, f in enumerate(NOISE)]
+        figures = Figures([self.file("store.json", pairs)])
+        self.assertIn("chart 3 (bench/run --only store)", front.missing(figures, ROOMS))
+        self.assertIn("- **Chart 3. Which layout, and what does another field cost?** Not in these figures.",
+                      list(front.sentences(figures)))
+
+    def test_sentences_of_the_readme_have_no_figures_in_brackets(self):
+        figures = Figures([self.file("id.json", map_rows({"dense": {1: 1, 8: 9}, "flat": {1: 3, 8: 3}}))])
+        lines = list(front.sentences(figures))
+        self.assertIn("- **Chart 1. Which table for which ids?** For 1e5 particles choose", lines)
+        self.assertIn("  - for batched look-ups dense at T/N = 1 and flat at 8", lines)
+
+    def test_few_repetitions_are_told(self):
+        few = Figures([self.file("id.json", map_rows({"flat": {1: 1}}, noise=(1, 1.1, 1.2)))])
+        self.assertIn("with fewer, of which there are some in id", front.introduction(few))
+        enough = Figures([self.file("id.json", map_rows({"flat": {1: 1}}))])
+        self.assertNotIn("with fewer", front.introduction(enough))
+
+    def test_claims_that_all_hold_need_no_table(self):
+        sys.argv = ["report.py", "--shortfalls", self.file("id.json", map_rows({"dense": {1: 1}, "plain_array": {1: 1}}))]
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertEqual(main("prints"), 0)
+        self.assertRegex(said.getvalue(), r"^Of 2 claims with a target 2 hold, 0 are .*, and none fails\.\n$")
+
     def test_several_runs_are_told(self):
         figures = Figures([self.file("id.json", map_rows({"flat": {1: 1}})),
                            self.file("dem.json", [{"name": "dem/missing/LAMMPS/no lmp here/-"}], commit="def-dirty")])
@@ -222,8 +282,13 @@ class Front(Folder):
         path = os.path.join(self.folder.name, "half.json")
         with open(path, "w", encoding="utf-8") as file:
             file.write('{"context": {')
-        for rows, context in ((None, None), ([], {"machine": ""})):
-            bad = path if rows is None else self.file("no_machine.json", rows, **context)
+        cut = self.file("cut.json.gz", map_rows({"flat": {1: 1}}))
+        with open(cut, "rb+") as file:
+            file.truncate(os.path.getsize(cut) // 2)
+        no_rows = os.path.join(self.folder.name, "no_rows.json")
+        with open(no_rows, "w", encoding="utf-8") as file:
+            json.dump({"context": CONTEXT}, file)
+        for bad in (path, cut, no_rows, self.file("no_machine.json", [], machine="")):
             with self.assertRaises(page.Refusal):
                 Figures([bad])
 
@@ -255,14 +320,35 @@ class Comparison(Folder):
                           for s, r in (("flat", 1), ("flat", 8), ("std_unordered_map", 1))],
                          [", as rivals are", "", ", a rival"])
         self.assertEqual(found.drift, (10 / 15, 1))
-        self.assertIn("drift by nine of ten rivals 0.67 to 1.00, beyond which 3 of our own rows differ",
+        self.assertIn("drift by most rivals 0.67 to 1.00, beyond which 3 of our own rows differ",
                       found.summary())
         self.assertIn("ratio:8/flat", found.changed()[0].name)
 
-    def test_one_repetition_tells_nothing(self):
-        found = self.compared(repeated("uniform/N:10/ratio:1/flat/rebuild", 10, (1,), bytes_per_particle=8),
-                              repeated("uniform/N:10/ratio:1/flat/rebuild", 90, (1,), bytes_per_particle=8))
-        self.assertEqual(found.rooms["id"].rows[0].mark, compare.TOO_FEW)
+    def test_few_repetitions_tell_nothing(self):
+        for noise, mark in (((1,), compare.TOO_FEW), (NOISE[:4], compare.TOO_FEW), (NOISE, compare.SLOWER)):
+            found = self.compared(repeated("uniform/N:10/ratio:1/flat/rebuild", 10, noise, bytes_per_particle=8),
+                                  repeated("uniform/N:10/ratio:1/flat/rebuild", 90, noise, bytes_per_particle=8))
+            self.assertEqual(found.rooms["id"].rows[0].mark, mark)
+
+    def test_our_own_rows_beside_loops_by_hand_are_no_rivals(self):
+        is_rival = lambda name: compare.Row(name, [1] * 5, [1] * 5).is_rival
+        self.assertFalse(is_rival("dem/hand/forces/tsubu/double"))
+        self.assertTrue(is_rival("dem/hand/forces/plain/double"))
+        self.assertTrue(is_rival("dem/beside/gas/lammps/double"))
+
+    def test_one_disturbed_rival_hides_nothing(self):
+        self.assertEqual(compare.drift_of([1, 1, 1.01, 1.02, .3]), (1, 1.01))
+
+    def test_all_files_of_a_room_are_looked_at(self):
+        rows = map_rows({"flat": {1: 10}})
+        folder = os.path.join(self.folder.name, "two")
+        os.mkdir(folder)
+        os.rename(self.file("a.json", rows, commit="first"), os.path.join(folder, "a.json"))
+        os.rename(self.file("b.json", map_rows({"flat": {8: 10}}), commit="second", machine="another"),
+                  os.path.join(folder, "b.json"))
+        text = compare.Comparison(compare.Run(self.file("old.json", rows)), compare.Run(folder)).text()
+        self.assertIn("DIFFERENT MACHINES: a machine and a machine, another", text)
+        self.assertIn("first, second", text)
 
     def test_counted_figures_must_be_equal(self):
         rows = lambda error: [{"name": "dem/impact/hooke/pefrl/double", "steps": 5.37, "error": error}]
@@ -295,6 +381,9 @@ class Comparison(Folder):
     def test_the_command_writes_a_page_and_a_text(self):
         rows = map_rows({"flat": {1: 10}})
         old, new = self.file("a.json", rows), self.file("b.json", rows)
+        with contextlib.redirect_stderr(io.StringIO()), self.assertRaises(SystemExit):
+            sys.argv = ["report.py", "--compare", old, new, "-o", os.path.join(self.folder.name, "compare.txt")]
+            main("would write the text upon the page")
         out = os.path.join(self.folder.name, "out", "compare.html")
         sys.argv = ["report.py", "--compare", old, new, "-o", out]
         said = io.StringIO()

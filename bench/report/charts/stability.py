@@ -158,7 +158,7 @@ def impact_panel(results, law, pyplot):
     axes.set_xlabel("π dt / time of contact, which is ω dt", fontsize=9, labelpad=1)
     axes.set_ylabel("error of the restitution, rms", fontsize=9, labelpad=1)
     log_ticks(axes.yaxis)
-    return panel(figure, pyplot, f"Impact, {LAWS[law][0]}")
+    return panel(figure, pyplot, f"Impact: {LAWS[law][0]}")
 
 
 BED = {"coordination": ("contacts per particle", "linear", 1), "kinetic": ("kinetic energy per particle, J", "log", 1),

@@ -177,7 +177,7 @@ void ranks(row_reporter& report, const std::string& launcher, std::size_t rounds
 }  // namespace
 
 void add_rivals(std::vector<group>& groups, extent how_much) {
-    constexpr std::size_t rounds_of_extent[] = {1, 3, 5};
+    constexpr std::size_t rounds_of_extent[] = {1, 5, 5};  // of fewer than five the spread says little
     const auto rounds = rounds_of_extent[static_cast<int>(how_much)];
     const bool has_lammps = std::system("(command -v lmp && command -v python3) >/dev/null 2>&1") == 0;
     if (has_lammps)

@@ -282,7 +282,7 @@ def svg_of(figure, pyplot, title, cropped=True):
     text = re.sub(r' id="([^"]*)"', lambda found: found[0] if found[1] in used else "", text)
     text = re.sub(r' (?:d|x|y|transform)="[^"]*"', lambda found: re.sub(r"(\.\d\d)\d+", r"\1", found[0]),
                   text)  # hundredths of a point are enough
-    text = re.sub(r"(px|pt) 'DejaVu Sans'[^;]*", r"\1 sans-serif", text)  # the page has its own font
+    text = re.sub(r"(px|pt) 'DejaVu Sans'[^;\"]*", r"\1 sans-serif", text)  # the page has its own font
     text = re.sub(r"\s*\n\s*", " ", text).replace("> <", "><").strip()
     text = text.replace("<svg", f'<svg role="img" aria-label="{html.escape(title, quote=True)}"', 1)
     for name, (stand_in, *_) in PALETTE.items():

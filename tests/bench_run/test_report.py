@@ -11,6 +11,7 @@ import re
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
 
@@ -205,6 +206,17 @@ class Drawing(Folder):
         looks = [results.looks()[name] for name in ("tree", "bush")]
         self.assertEqual(len({(look.marker, look.line) for look in looks}), 2)
         self.assertEqual(list(results_of(id_map, map_rows({"flat": {1: 1}})).looks()), ["flat"])  # nothing is kept
+
+    def test_a_picture_keeps_its_texts(self):
+        """Those with powers and with several lines are drawn in parts."""
+        pyplot = page.plotting()
+        figure, axes = pyplot.subplots()
+        axes.set(xscale="log", xlim=(1, 1e8), title="one line\nand another")
+        picture = xml.etree.ElementTree.fromstring(page.svg_of(figure, pyplot, "powers"))
+        words = ["".join(text.itertext()).strip() for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+        for word in ("one line", "and another", "0.4", "1.0"):
+            self.assertIn(word, words)
+        self.assertTrue(any(word.replace(" ", "") in ("108", "10⁸") for word in words), words)
 
     def test_no_name_on_the_page_is_there_twice(self):
         rows = map_rows({"dense": {1: 1, 8: 2}, "flat": {1: 3, 8: 3}, "adaptive": {1: 1, 8: 2}})

@@ -191,10 +191,10 @@ def numbers_advice(results):
 
 
 def tolerance_text(results):
-    """1 %, or of the gas' energy 1e-4"""
-    special = [f"{short_power(scene.tolerance)} of the {scene.what}" for scene in scenes(results)
+    """1 %, of the energy 1e-4,"""
+    special = [f"of the {scene.what} {short_power(scene.tolerance)}," for scene in scenes(results)
                if scene.tolerance != TOLERANCE]
-    return " or ".join([f"{100 * TOLERANCE:g} %", *special])
+    return f"{100 * TOLERANCE:g} %" + "".join(f", {text}" for text in special)
 
 
 def advice(results):

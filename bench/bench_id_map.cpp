@@ -195,7 +195,7 @@ struct measured_series {
     std::unique_ptr<contender> map;
 };
 
-/// How many nodes a look-up visits in the notes' scheme, on average over the particles.
+/// How many nodes a look-up visits in LIGGGHTS' scheme, on average over the particles.
 double mod_prime_visits(const std::vector<id_t>& ids) {
     const auto buckets = tsubu::next_prime(tsubu::chained_capacity(ids.size()));
     std::vector<std::uint32_t> length(buckets, 0);

@@ -170,7 +170,7 @@ namespace bench {
     return set;
 }
 
-/// Multiples of the notes' bucket count for exactly this many particles: one chain.
+/// Multiples of LIGGGHTS' bucket count for exactly this many particles: one chain.
 [[nodiscard]] inline id_set bucket_multiples(std::size_t owned, std::uint64_t, std::uint64_t seed) {
     const auto particles = different_ids(owned) + image_count(owned);
     return multiples(owned, tsubu::next_prime(tsubu::chained_capacity(particles)), seed);
@@ -199,7 +199,7 @@ inline constexpr pattern patterns[] = {
     {"rank_in_low_bits", rank_in_low_bits, true},
     {"random_62_bits", random_62_bits, true},
     {"multiples_of_B", bucket_multiples, true},
-    {"multiples_of_32771", stride_of<32771>, false},  // the notes' B from 16 384 particles
+    {"multiples_of_32771", stride_of<32771>, false},  // LIGGGHTS' B from 16 384 particles
     {"stride_2^6", stride_of<1ULL << 6>, true},
     {"stride_2^7", stride_of<1ULL << 7>, false},
     {"stride_2^8", stride_of<1ULL << 8>, false},

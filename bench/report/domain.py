@@ -29,7 +29,7 @@ STEPS = {
     "fine": "as finely as the scalar holds a step of one to two box lengths",
     "coarse": "multiples of 2⁻²⁰ box lengths, whose sums double holds at every offset",
 }
-# Where the notes' epsilon of 1e-8 m is as large as the margin beside the box, and where it is lost beside a face.
+# Where LIGGGHTS' epsilon of 1e-8 m is as large as the margin beside the box, and where it is lost beside a face.
 EPSILON = 1e-8
 VANISHES = {"double": 2**27, "float": 0.25}
 
@@ -197,7 +197,7 @@ def partition_chart(results, field, title, pyplot):
 
 
 def end_words(axes, height):
-    """What becomes of the notes' epsilon at the two ends."""
+    """What becomes of LIGGGHTS' epsilon at the two ends."""
     axes.text(.02, height, "epsilon is larger\nthan the box", transform=axes.transAxes, fontsize=8.5, va="top")
     axes.text(.98, height, "epsilon vanishes\nbeside the faces", transform=axes.transAxes, fontsize=8.5, va="top",
               ha="right")

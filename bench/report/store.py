@@ -453,7 +453,7 @@ SORT_TEXT = (
     "order and permutation over what each gather saves; “–” where it saves less than 5 %.")
 GROWTH_TEXT = (
     "Particles appended one by one to an empty store. geometric_growth takes half as much again, block_growth one "
-    "block of 16384 more, as the notes do: its copies grow with the square, to 3e11 for 1e8 appends. Copies are "
+    "block of 16384 more, as LIGGGHTS does: its copies grow with the square, to 3e11 for 1e8 appends. Copies are "
     "counted; the times are of appends that were made, to a store of layout soa.")
 
 

@@ -10,6 +10,7 @@ import concurrent.futures
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -185,4 +186,5 @@ def main():
 
 if __name__ == "__main__":
     os.environ.setdefault("LC_ALL", "C")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the scratch folder goes too
     sys.exit(main())

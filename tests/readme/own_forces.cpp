@@ -8,7 +8,7 @@
 using carried = tsubu::fields<tsubu::id, tsubu::position<3>, tsubu::velocity<3>, tsubu::force<3>>;
 
 int main() {
-    tsubu::self_transport on;  // or mpi_transport
+    tsubu::self_transport on;  // over MPI: <tsubu/mpi.hpp>, an mpi_environment, and mpi_transport here
     const tsubu::domain<3> box({0, 0, 0}, {8, 8, 8}, {.periodic = {true, true, true}});
     const tsubu::brick_decomposition bricks(box, on.ranks());
     tsubu::particle_store<carried> g;
@@ -21,7 +21,7 @@ int main() {
     }
 
     const double cutoff = 1.2, skin = 0.3, k = 100, dt = 2e-3;  // [m], [m], [N/m], [s]; masses are 1 kg
-    tsubu::halo<tsubu::brick_decomposition<3>, tsubu::self_transport> halo;
+    decltype(tsubu::make_halo(g, bricks, cutoff, on)) halo;
     tsubu::pair_list list;
     tsubu::skin_watch watch(skin);
     const auto is_owned = [&](tsubu::index_t i) { return static_cast<std::size_t>(i) < g.owned_count(); };

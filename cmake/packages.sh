@@ -105,9 +105,9 @@ install_packages() { # needed or wanted
         case " ${chosen[*]-} " in *" $package "*) ;; *) chosen+=("$package") ;; esac
     done
     [ ${#chosen[@]} -gt 0 ] || return 0
-    say "$program: installing with apt-get: ${chosen[*]}"
+    say "$program: installing with apt-get, which takes some minutes: ${chosen[*]}"
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}" \
-        </dev/null || say "$program: apt-get could not install: ${chosen[*]}"
+        </dev/null >/dev/null || say "$program: apt-get could not install: ${chosen[*]}"
 }
 
 provide() { # the function that calls need and want for everything

@@ -12,12 +12,12 @@ import collections
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
-root = pathlib.Path(__file__).resolve().parents[2]
-headers = root / "include/tsubu"
-rooms = ["core", "id", "domain", "store", "io", "comm", "neighbor", "dem", "testing"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HEADERS = ROOT / "include/tsubu"
 
 
 def programs_in(build):
@@ -70,7 +70,7 @@ def runs_of(numbers):
     return ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in runs)
 
 
-class tally:
+class Tally:
     def __init__(self):
         self.lines = self.lines_run = self.branches = self.branches_run = 0
 
@@ -116,16 +116,16 @@ def main():
     llvm("profdata", "merge", "-sparse", *profiles, "-o", merged)
     first, *others = programs_in(build)
     asked = [first, *(f"-object={one}" for one in others), f"-instr-profile={merged}",
-             f"-ignore-filename-regex=^/usr/|^{root}/(tests|bench)/"]
+             f"-ignore-filename-regex=^{re.escape(str(ROOT))}/(tests|bench)/|^/usr/(include|lib)/"]
     lines = lines_from(llvm("cov", "export", *asked, "-format=lcov"))
     branches = branches_from(llvm("cov", "export", *asked, "-skip-functions"))
     llvm("cov", "show", *asked, "-format=html", f"-output-dir={build / 'html'}", "-project-title=tsubu")
 
-    by_room = {room: tally() for room in rooms}
-    total = tally()
+    by_room = {room.name: Tally() for room in sorted(HEADERS.iterdir()) if room.is_dir()}
+    total = Tally()
     files = {}
-    for path in sorted(headers.rglob("*.hpp")):
-        name = path.relative_to(headers)
+    for path in sorted(HEADERS.rglob("*.hpp")):
+        name = path.relative_to(HEADERS)
         room = name.parts[0]
         if room not in by_room:
             continue  # the umbrellas include, and do nothing else
@@ -133,22 +133,25 @@ def main():
         ways = branches.get(str(path), {})
         for one in (by_room[room], total):
             one.add(here, ways)
-        of_file = tally()
+        of_file = Tally()
         of_file.add(here, ways)
         files[str(name)] = of_file.as_dict() | {"lines_not_run": sorted(n for n, count in here.items() if not count)}
 
+    if total.lines == 0:
+        sys.exit(f"no line of {HEADERS} has a counter: were the tests built in another checkout?")
     print(f"{'room':10}{'lines':>8}{'run':>8}{'':11}{'branches':>10}{'taken':>8}", flush=True)
-    for room in rooms:
-        print(by_room[room].row(room))
+    for room, counted in by_room.items():
+        print(counted.row(room))
     print(total.row("all"))
     print("Not run:")
     for name, one in files.items():
         if one["lines_not_run"]:
             print(f"  {name}: {runs_of(one['lines_not_run'])}")
-    result = {"all": total.as_dict(), "rooms": {room: by_room[room].as_dict() for room in rooms}, "files": files}
+    of_rooms = {room: counted.as_dict() for room, counted in by_room.items()}
+    result = {"all": total.as_dict(), "rooms": of_rooms, "files": files}
     (build / "coverage.json").write_text(json.dumps(result, indent=1) + "\n")
     print(f"Line by line: {build / 'html/index.html'}; as numbers: {build / 'coverage.json'}")
-    share = tally.share(total.lines_run, total.lines)
+    share = Tally.share(total.lines_run, total.lines)
     if share < given.least:
         print(f"{share:.2f} % of the lines are run, fewer than {given.least} %")
         return 1

@@ -10,24 +10,25 @@ import concurrent.futures
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 
 sys.dont_write_bytecode = True
-from planted import bugs  # noqa: E402
+from planted import BUGS  # noqa: E402
 
-root = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Without optimisation: of a test that runs for a second, compiling is the dear part.
-flags = ["-std=c++20", "-O0", "-w", "-pthread", "-I", str(root / "include"), "-I", str(root / "tests")]
-compile_seconds = 600
-run_seconds = 120  # what takes longer than any test case that is named waits for ever
+FLAGS = ["-std=c++20", "-O0", "-w", "-pthread", "-I", str(ROOT / "include"), "-I", str(ROOT / "tests")]
+COMPILE_SECONDS = 600
+RUN_SECONDS = 120  # what takes longer than any test case that is named waits for ever
 
 
 def problem_with(bug):
     """Why the bug cannot be planted, or None."""
-    header = root / "include/tsubu" / bug.header
+    header = ROOT / "include/tsubu" / bug.header
     if not header.is_file():
         return f"there is no include/tsubu/{bug.header}"
     found = header.read_text().count(bug.old)
@@ -35,7 +36,7 @@ def problem_with(bug):
         return f"what is to be replaced stands {found} times in include/tsubu/{bug.header}"
     if bug.old == bug.new:
         return "old and new are the same"
-    test = root / "tests" / bug.test
+    test = ROOT / "tests" / bug.test
     if not test.is_file():
         return f"there is no tests/{bug.test}"
     if f'"{bug.case}"' not in test.read_text():
@@ -44,13 +45,13 @@ def problem_with(bug):
 
 
 def plant(bug, folder):
-    header = root / "include/tsubu" / bug.header
+    header = ROOT / "include/tsubu" / bug.header
     changed = folder / "tsubu" / bug.header
     changed.parent.mkdir(parents=True)
     changed.write_text(header.read_text().replace(bug.old, bug.new))
 
 
-class builder:
+class Builder:
     def __init__(self, compiler, scratch):
         self.compiler = compiler
         self.scratch = scratch
@@ -58,7 +59,8 @@ class builder:
         self.libraries = []
         for source in ("support/main.cpp", "support/counted_memory.cpp"):
             made = scratch / (pathlib.Path(source).stem + ".o")
-            self.call([*flags, "-c", str(root / "tests" / source), "-o", str(made)])
+            if complaint := self.call([*FLAGS, "-c", str(ROOT / "tests" / source), "-o", str(made)]):
+                sys.exit(f"tests/{source} does not compile: {complaint}")
             self.objects.append(str(made))
         # Version 3 of the framework is a library, version 2 is all in main.o.
         if "_ZN5Catch7SessionC" not in subprocess.run(
@@ -68,15 +70,21 @@ class builder:
     def call(self, arguments):
         """What the compiler has to say if it fails, else None."""
         try:
-            done = subprocess.run([self.compiler, *arguments], capture_output=True, text=True, timeout=compile_seconds)
+            done = subprocess.run([self.compiler, *arguments], capture_output=True, text=True, timeout=COMPILE_SECONDS)
         except subprocess.TimeoutExpired:
-            return f"not compiled after {compile_seconds} s"
+            return f"not compiled after {COMPILE_SECONDS} s"
         return None if done.returncode == 0 else done.stderr or "failed"
 
     def build(self, test, program, first=None):
         before = [] if first is None else ["-I", str(first)]
-        return self.call([*before, *flags, str(root / "tests" / test), *self.objects, "-o", str(program),
+        return self.call([*before, *FLAGS, str(ROOT / "tests" / test), *self.objects, "-o", str(program),
                           *self.libraries])
+
+
+def error_in(complaint):
+    """The line that matters: the first ones mostly say only which file has included which."""
+    lines = complaint.splitlines()
+    return next((line for line in lines if "error:" in line), lines[0])
 
 
 def pattern_of(case):
@@ -103,15 +111,17 @@ def judge(bug, build, folder):
     complaint = build.build(bug.test, program, folder / "include")
     if bug.seen_by_compiler:
         saw = complaint and f"{bug.test}:" in complaint and "static_assert" in complaint and bug.says in complaint
-        return None if saw else "SURVIVES: the test file compiles" if not complaint else complaint.splitlines()[0]
+        return None if saw else "SURVIVES: the test file compiles" if not complaint else error_in(complaint)
     if complaint:
-        return "does not compile: " + complaint.splitlines()[0]
-    result, text = outcome(program, bug.case, folder, bug.seconds or run_seconds)
+        return "does not compile: " + error_in(complaint)
+    result, text = outcome(program, bug.case, folder, bug.seconds or RUN_SECONDS)
     program.unlink()
     if result == "hangs":
-        return None if bug.seconds else f"hangs for {run_seconds} s, where a failure was expected"
+        return None if bug.seconds else f"hangs for {RUN_SECONDS} s, where a failure was expected"
     if result == "passed":
         return "SURVIVES: the test passes"
+    if bug.seconds:
+        return f"{result}, where it was to wait for ever"
     if bug.says not in text:
         return f"another check has failed: the output lacks {bug.says!r}"
     return None
@@ -126,7 +136,7 @@ def main():
     parser.add_argument("--list", action="store_true")
     given = parser.parse_args()
 
-    chosen = [bug for bug in bugs if not given.names or any(bug.name.startswith(name) for name in given.names)]
+    chosen = [bug for bug in BUGS if not given.names or any(bug.name.startswith(name) for name in given.names)]
     if not chosen:
         print(f"no bug has a name that begins with {' or '.join(given.names)}", file=sys.stderr)
         return 2
@@ -135,8 +145,8 @@ def main():
             print(f"{bug.name:44} {bug.kind:20} {bug.test}: {bug.case}")
         return 0
     broken = [(bug, why) for bug in chosen if (why := problem_with(bug))]
-    if len({bug.name for bug in bugs}) != len(bugs):
-        broken.append((bugs[0], "two bugs have the same name"))
+    if len({bug.name for bug in BUGS}) != len(BUGS):
+        broken.append((BUGS[0], "two bugs have the same name"))
     for bug, why in broken:
         print(f"{bug.name}: {why}", file=sys.stderr)
     if broken or given.check:
@@ -146,7 +156,7 @@ def main():
     began = time.monotonic()
     scratch = pathlib.Path(tempfile.mkdtemp(prefix="tsubu-mutations-"))
     try:
-        build = builder(given.compiler, scratch)
+        build = Builder(given.compiler, scratch)
         with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
 
             def sound(number, test):
@@ -155,8 +165,8 @@ def main():
                 folder.mkdir()
                 cases = {bug.case for bug in chosen if bug.test == test}
                 if complaint := build.build(test, folder / "program"):
-                    return {case: "does not compile: " + complaint.splitlines()[0] for case in cases}
-                results = {case: outcome(folder / "program", case, folder, run_seconds)[0] for case in cases}
+                    return {case: "does not compile: " + error_in(complaint) for case in cases}
+                results = {case: outcome(folder / "program", case, folder, RUN_SECONDS)[0] for case in cases}
                 (folder / "program").unlink()
                 return results
 
@@ -185,4 +195,5 @@ def main():
 
 if __name__ == "__main__":
     os.environ.setdefault("LC_ALL", "C")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the scratch folder goes too
     sys.exit(main())

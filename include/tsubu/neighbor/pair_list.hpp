@@ -24,7 +24,8 @@ struct index_pair {
     index_t j;
 };
 
-/// Which particles are near each other? Each pair once; of those across a border each rank has one.
+/// Which particles are near each other? Each pair once; one across a border is in the lists of both sides, and so twice
+/// where one process is its own neighbour. Add what it does to the owned one alone.
 ///
 ///     tsubu::pair_list list;
 ///     list.build(g[tsubu::position<3>], g.owned_count(), tsubu::same_reach{cutoff + skin});

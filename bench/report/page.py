@@ -226,8 +226,8 @@ def go_on_with_system_python():
         return
     probe = subprocess.run([SYSTEM_PYTHON, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False)
     if probe.returncode == 0:
-        print(f"report.py: {sys.executable} has no matplotlib; going on with {SYSTEM_PYTHON}, which has it",
-              file=sys.stderr, flush=True)
+        print(f"{os.path.basename(sys.argv[0])}: {sys.executable} has no matplotlib; going on with {SYSTEM_PYTHON}, "
+              "which has it", file=sys.stderr, flush=True)
         os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, *sys.argv])
 
 

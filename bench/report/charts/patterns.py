@@ -84,8 +84,8 @@ def advice(results):
                       f"{len(beyond)} of {len(ratios)} patterns", f"{PATTERNS[low[1]]}; {PATTERNS[high[1]]}"))
     refused = [p for p in names if (p, size, 8, "dense") in results.refused]
     if refused:
-        found.append((f"dense is refused for {len(refused)} of {len(names)} patterns, whose range would not fit into "
-                      "memory", ""))
+        found.append((f"for {len(refused)} of {len(names)} patterns dense is refused, since their range would not fit "
+                      "into memory", ""))
     bad = [(visits, p) for (p, n, _, _), (visits, _) in results.degenerate.items() if n == size and p in names]
     if bad:
         found.append((f"do not take ids modulo a prime: on {PATTERNS[max(bad)[1]]} a look-up visits {max(bad)[0]:.0f} "

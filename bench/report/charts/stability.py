@@ -246,7 +246,7 @@ def bed_advice(results):
     if broken:
         after = [r["coordination"] for r in beyond if r["omega_dt"] >= broken["omega_dt"]]
         fall = " and less" if len(after) > 1 and max(after) <= broken["coordination"] else ""
-        found.append(("a longer one is refused by the guards, which are on by default; without them it goes unnoticed "
+        found.append(("a longer step is refused by the guards, which are on by default; without them it goes unnoticed "
                       f"that there are {broken['coordination']:.2f}{fall} from {broken['omega_dt']:g} on", ""))
     return found
 

@@ -272,7 +272,8 @@ class Front(Folder):
         self.assertNotIn("with fewer", front.introduction(enough))
 
     def test_claims_that_all_hold_need_no_table(self):
-        sys.argv = ["report.py", "--shortfalls", self.file("id.json", map_rows({"dense": {1: 1}, "plain_array": {1: 1}}))]
+        maps = self.file("id.json", map_rows({"dense": {1: 1}, "plain_array": {1: 1}}))
+        sys.argv = ["report.py", "--shortfalls", maps]
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
             self.assertEqual(main("prints"), 0)

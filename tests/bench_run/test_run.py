@@ -57,7 +57,7 @@ esac
 def is_alive(pid):
     try:
         with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] != "Z"  # one that nobody has waited for is dead all the same
+            return file.read().rsplit(")", 1)[1].split()[0] != "Z"  # Z: it has ended, and nobody has asked how
     except FileNotFoundError:
         return False
 

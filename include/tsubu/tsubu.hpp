@@ -139,6 +139,7 @@
 #include <tsubu/dem/pefrl.hpp>
 #include <tsubu/dem/quantities.hpp>
 #include <tsubu/dem/references.hpp>
+#include <tsubu/dem/restart.hpp>
 #include <tsubu/dem/run.hpp>
 #include <tsubu/dem/runge_kutta_4.hpp>
 #include <tsubu/dem/scenes.hpp>

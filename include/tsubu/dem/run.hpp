@@ -22,13 +22,14 @@
 #include <tsubu/dem/simulation.hpp>
 #include <tsubu/neighbor/pair_list.hpp>
 
-#include <cmath>    // std::sqrt
-#include <cstddef>  // std::size_t
-#include <cstdint>  // std::uint64_t
-#include <span>     // std::span
-#include <string>   // std::to_string
-#include <tuple>    // std::get, std::tuple
-#include <vector>   // std::vector
+#include <cmath>        // std::sqrt
+#include <cstddef>      // std::size_t
+#include <cstdint>      // std::uint64_t
+#include <span>         // std::span
+#include <string>       // std::to_string
+#include <tuple>        // std::get, std::tuple, std::tuple_size_v
+#include <type_traits>  // std::is_constructible_v
+#include <vector>       // std::vector
 
 namespace tsubu::dem {
 
@@ -359,7 +360,16 @@ private:
 template <class Simulation, transport Transport, class... Models>
 [[nodiscard]] run<Simulation, Transport> make_run(const typename Simulation::box_type& box, const options& how,
                                                   Transport& on, const Models&... models) {
-    return run<Simulation, Transport>(box, how, on, models...);
+    using expected = typename Simulation::models_type;
+    constexpr bool fits = [] {
+        if constexpr (sizeof...(Models) == std::tuple_size_v<expected>)
+            return std::is_constructible_v<expected, const Models&...>;
+        else
+            return false;
+    }();
+    static_assert(fits, "give the parameters of each model of the scene, in the order of its type; and equal_spheres "
+                        "last, where the type names neither them nor spheres");
+    if constexpr (fits) return run<Simulation, Transport>(box, how, on, models...);
 }
 
 }  // namespace tsubu::dem

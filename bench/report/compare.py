@@ -121,16 +121,18 @@ class Room:
             texts.append(f"{marks.count(TOO_FEW)} of too few repetitions")
         if ratios:
             texts.append(f"old / new in the middle {ratios[len(ratios) // 2]:.2f}")
+        sentences = [", ".join(texts)]
         if self.drift:
             own = [row for row in self.rows if row.mark in (FASTER, SLOWER) and not row.is_rival and not row.is_drift]
-            texts.append(f"the machine's drift by most rivals {self.drift[0]:.2f} to {self.drift[1]:.2f}, "
-                         f"beyond which {len(own)} of our own rows differ")
+            sentences.append(f"Most rivals, whose code is the same, lie between {self.drift[0]:.2f} and "
+                             f"{self.drift[1]:.2f}, so much the machine has drifted: beyond that {len(own)} rows of "
+                             "ours")
         if self.only_old or self.only_new:
-            texts.append(f"only in the old {len(self.only_old)}, only in the new {len(self.only_new)}")
+            sentences.append(f"Only in the old {len(self.only_old)}, only in the new {len(self.only_new)}")
         if self.other_counts:
-            texts.append(f"{len(self.other_counts)} counted figures differ (errors, bytes), such as "
-                         f"{self.other_counts[0]}")
-        return ", ".join(texts)
+            sentences.append(f"{len(self.other_counts)} counted figures differ (errors, bytes), such as "
+                             f"{self.other_counts[0]}")
+        return ". ".join(sentences)
 
 
 def drift_of(ratios):

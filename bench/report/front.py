@@ -94,7 +94,7 @@ def missing_rivals(figures):
 
 
 def missing_rooms(figures, rooms):
-    return [(name, "bench/run with an MPI library" if name == "comm" else f"bench/run --only {name}")
+    return [(name, f"bench/run --only {name}" + (", with an MPI library" if name == "comm" else ""))
             for name in rooms if name not in figures.results]
 
 

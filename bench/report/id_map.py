@@ -308,10 +308,15 @@ def own_costs(results, count, measure):
     return lambda ratio: {s: v for s in OWN if (v := value_of(results, count, ratio, s, measure))}
 
 
+def choices(results, count, measure):
+    """[(table, [T/N])]; of those within noise the one that takes least memory."""
+    costs, memory = own_costs(results, count, measure), own_costs(results, count, "memory")
+    return runs_of_choice(results.ratios(count), costs, memory)
+
+
 def choice_text(results, count, measure):
     """dense up to T/N = 8 and flat from 64 on"""
-    return spans_text(runs_of_choice(results.ratios(count), own_costs(results, count, measure)), "T/N = ", short_label,
-                      power)
+    return spans_text(choices(results, count, measure), "T/N = ", short_label, power)
 
 
 def crossing(x0, x1, a0, a1, b0, b1):

@@ -109,17 +109,19 @@ def as_good(values):
     return [name for value, name in found if not apart(value, found[0][0])]
 
 
-def runs_of_choice(places, values_at):
+def runs_of_choice(places, values_at, weights_at=lambda place: {}):
     """[(name, [places])]: what to choose along an axis, changed only where it is worse than the best beyond noise.
 
-    values_at(place): {name: cost}."""
+    values_at(place): {name: cost}; of those within noise of the best the one of the least weight is taken, if it has
+    one, else the best."""
     runs = []
     for place in places:
         good = as_good(values_at(place))
+        weights = weights_at(place)
         if good and runs and runs[-1][0] in good:
             runs[-1][1].append(place)
         elif good:
-            runs.append((good[0], [place]))
+            runs.append((min(good, key=lambda name: weights.get(name, math.inf)), [place]))
     return runs
 
 

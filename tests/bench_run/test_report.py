@@ -333,7 +333,7 @@ class Comparison(Folder):
                           for s, r in (("flat", 1), ("flat", 8), ("std_unordered_map", 1))],
                          [", as rivals are", "", ", a rival"])
         self.assertEqual(found.drift, (10 / 15, 1))
-        self.assertIn("drift by most rivals 0.67 to 1.00, beyond which 3 of our own rows differ",
+        self.assertIn("lie between 0.67 and 1.00, so much the machine has drifted: beyond that 3 rows of ours",
                       found.summary())
         self.assertIn("ratio:8/flat", found.changed()[0].name)
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Chart 1: which table for which ids. Rebuild, look-ups and memory over how sparse the ids are."""
 from ..drawing import legend, panels, tables
-from ..id_map import (DEFAULT, MEASURES, OPERATIONS, RIVALS, choice_text, draw_sweep, drawn_looks, own_costs,
+from ..id_map import (DEFAULT, MEASURES, OPERATIONS, RIVALS, choice_text, choices, draw_sweep, drawn_looks, own_costs,
                       short_label, sweep_counts, sweep_panel, sweep_table, value_of)
-from ..page import Refusal, apart, figure_of, power, quotient, runs_of_choice
+from ..page import Refusal, apart, figure_of, power, quotient
 
 ROOM = "id"
 TITLE = "Which table for which ids?"
@@ -47,7 +47,7 @@ def numbers_text(results, count, measure):
     """dense 2.84 ns, absl prefetched 28.4 at T/N = 2; flat 11.2 ns, boost 48.1 at 1e6"""
     costs = own_costs(results, count, measure)
     texts = []
-    for series, places in runs_of_choice(results.ratios(count), costs):
+    for series, places in choices(results, count, measure):
         values = costs(places[-1])
         text = f"{short_label(series)} {figure_of(values[series])} {'B' if measure == 'memory' else 'ns'}"
         rival = results.best(RIVALS, "uniform", count, places[-1], measure) if measure != "memory" else None

@@ -3,9 +3,12 @@
 /// write_restart and read_restart of a run: it stops, and goes on elsewhere.
 #pragma once
 
+#include <tsubu/comm/agreement.hpp>
 #include <tsubu/comm/shared_restart.hpp>
+#include <tsubu/comm/transport.hpp>
 #include <tsubu/core/error.hpp>
 #include <tsubu/dem/run.hpp>
+#include <tsubu/io/restart.hpp>
 #include <tsubu/io/restart_state.hpp>
 
 #include <cstdint>  // std::int64_t

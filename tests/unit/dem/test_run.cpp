@@ -297,34 +297,26 @@ TEST_CASE("memory may be reserved while a run goes on", "[dem][run]") {
         CHECK(lists < 100000);
     });
 }
-TEST_CASE("a history that is no number is refused with both ids", "[dem][run][history][bad_input]") {
-    std::string said;
-    tsubu::run_ranks(1, [&](local_transport& on) {
-        auto row = empty_run(on);
-        add_row_and_bystanders(row.particles());
-        row.start();
-        row.keep_history();
-        auto& store = row.particles();
-        for (std::size_t i = 0; i < store.owned_count(); ++i)
-            if (store[tsubu::id][i] == 3) store[contacts][i].begin()->history[1] = NAN;
-        said = thrown<tsubu::input_error>([&] { row.resume(); });
-    });
-    INFO(said);
-    CHECK(
-        says(said, "dem::run::start: particle 3 has a history of nan with 2; give finite numbers, or clear the field"));
-}
-TEST_CASE("a partner that should be near, and is not, is named", "[dem][run][history][bad_input]") {
-    std::string said;
-    tsubu::run_ranks(1, [&](local_transport& on) {
-        auto row = empty_run(on);
-        add_row_and_bystanders(row.particles());
-        row.start();
-        row.keep_history();
-        auto& store = row.particles();
-        for (std::size_t i = 0; i < store.owned_count(); ++i)
-            if (store[tsubu::id][i] == 3) store[contacts][i].begin()->partner = 77;
-        said = thrown<tsubu::input_error>([&] { row.resume(); });
-    });
+TEST_CASE("a history that cannot be is refused with both ids", "[dem][run][history][bad_input]") {
+    const auto refusal = [](auto&& spoil) {
+        std::string said;
+        tsubu::run_ranks(1, [&](local_transport& on) {
+            auto row = empty_run(on);
+            add_row_and_bystanders(row.particles());
+            row.start();
+            row.keep_history();
+            auto& store = row.particles();
+            for (std::size_t i = 0; i < store.owned_count(); ++i)
+                if (store[tsubu::id][i] == 3) spoil(*store[contacts][i].begin());
+            said = thrown<tsubu::input_error>([&] { row.resume(); });
+        });
+        return said;
+    };
+    const auto no_number = refusal([](auto& contact) { contact.history[1] = NAN; });
+    INFO(no_number);
+    CHECK(says(no_number, "dem::run::start: particle 3 has a history of nan with 2; give finite numbers, or clear the "
+                          "field"));
+    const auto said = refusal([](auto& contact) { contact.partner = 77; });
     INFO(said);
     CHECK(says(said, "dem::run::start: particle 3 remembers a contact with 77, which is not near it on this rank"));
     CHECK(says(said, "insert both of them, or clear the field `contacts`"));

@@ -10,10 +10,12 @@ the README shows of them, or compares two runs.
     report.py --markdown RESULT.json          tables
     report.py --picture FILE.svg RESULT.json
 
-Times are medians over the repetitions; the spread is the lowest and the highest. Every ratio is one of two medians of
+Times are medians over the repetitions, with the limits between which the median lies at 93 % or more (of five to seven
+repetitions, the lowest and the highest). Every ratio is one of two medians of
 the same group, so of two series whose repetitions ran interleaved; in the room store each repetition has a ratio of its
 own. The package report, beside this file, does the work: a module per room, charts/ for the five that the page begins
-with, front for what stands around them, compare for two runs, page and drawing for what all share.
+with, front for what stands around them, compare for two runs, and spread, claims, pictures, drawing and page for what all
+share.
 """
 import sys
 

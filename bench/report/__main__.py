@@ -6,9 +6,11 @@ import sys
 
 from . import comm, compare, dem, domain, front, id_map, io, reading, store
 from .charts import sparsity
-from .page import (FAILS, HOLDS, NOISY, Refusal, appendix, claim_section, context_section, document, listed,
-                   markdown_claims, plotting, write_picture)
-from .reading import contents_of, files_of, room_of
+from .claims import FAILS, HOLDS, NOISY, claim_section, markdown_claims
+from .page import appendix, context_section, document
+from .pictures import plotting, write_picture
+from .reading import Refusal, contents_of, files_of, room_of
+from .spread import listed
 
 README_CHARTS = {"id": sparsity.readme_chart, "dem": dem.readme_chart}
 ROOMS = dict(zip(reading.ROOMS, (id_map, domain, store, io, comm, dem)))

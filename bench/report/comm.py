@@ -5,9 +5,11 @@ import itertools
 import math
 from collections import defaultdict
 
-from .page import (INK, Claim, Refusal, colour, figure_cell, figure_of, markdown_row, middle, plain_ticks, power,
-                   quotient, ratio_cell, svg_of, table)
-from .reading import RoomResults
+from .claims import Claim
+from .page import context_text, figure_cell, markdown_row, ratio_cell, table
+from .pictures import INK, colour, plain_ticks, svg_of
+from .reading import Refusal, RoomResults
+from .spread import figure_of, middle, power, quotient
 
 SERIES = (  # name, label, colour, line
     ("tsubu", "tsubu", colour("blue"), "-"),
@@ -476,8 +478,7 @@ def sections(results, pyplot):
 
 def markdown(results):
     context = results.contexts[0]
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, {context.get('mpi', 'MPI')}, "
-             f"{results.ranks} ranks, commit {context['commit']}.", "",
+    lines = [context_text(context, context.get("mpi", "MPI"), f"{results.ranks} ranks"), "",
              f"µs of the slowest rank, medians of {min(results.repetitions())} interleaved turns.", "",
              markdown_row(["task", "tsubu", "by hand", "MPI_Sendrecv of the bytes"]), "|" + "---|" * 4]
     cells = [("migrate", str(p), f"migrate, {p} % leave", ("tsubu",)) for p in results.percents()]

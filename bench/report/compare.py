@@ -8,8 +8,9 @@ is no greater than most of theirs has a mark of its own."""
 import html
 from collections import defaultdict
 
-from .page import FEWEST, Refusal, apart, document, figure_of, folded, middle, quotient, table
-from .reading import ROOMS, contents_of, files_of, room_of
+from .page import document, folded, table
+from .reading import ROOMS, Refusal, contents_of, files_of, room_of
+from .spread import FEWEST, apart, figure_of, middle, quotient
 
 FASTER, SLOWER, SAME, TOO_FEW = "faster", "slower", "same", "too few repetitions"
 SHOWN = 40  # changed rows of a room on the terminal; the files have all

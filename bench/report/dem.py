@@ -5,10 +5,12 @@ import html
 import math
 from collections import defaultdict
 
+from .claims import Claim
 from .drawing import Look
-from .page import (INK, Claim, Refusal, colour, figure_cell, figure_of, listed, markdown_row, middle, quotient,
-                   ratio_cell, svg_of, table)
-from .reading import RoomResults
+from .page import context_text, figure_cell, markdown_row, ratio_cell, table
+from .pictures import INK, colour, svg_of
+from .reading import Refusal, RoomResults
+from .spread import figure_of, listed, middle, quotient
 
 LAWS = {  # name: label, order of the restitution's error, with which integrator
     "hooke": ("Hooke", 2, "velocity_verlet"), "dashpot": ("Hooke and dashpot", 1, "velocity_verlet"),
@@ -391,7 +393,7 @@ def sections(results, pyplot):
 
 def markdown(results):
     context = results.contexts[0]
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, commit {context['commit']}.", ""]
+    lines = [context_text(context), ""]
     if results.scenes():
         lines += [markdown_row(["scene", "tsubu, ns per particle-step", "LAMMPS", "LAMMPS / tsubu",
                                 "resident bytes per particle", "LAMMPS"]), "|" + "---|" * 6]

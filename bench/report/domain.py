@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The domain: whose is x, how long that takes for a batch, and how far a wrapped position drifts."""
 import html
-import statistics
 from collections import defaultdict
 
-from .page import (GRID, INK, Claim, Spread, colour, figure_of, folded, markdown_row, power, quotient, ratio_cell,
-                   spread_text, svg_of, table)
+from .claims import Claim
+from .page import context_text, figure_cell, folded, markdown_row, ratio_cell, table
+from .pictures import GRID, INK, colour, svg_of
 from .reading import RoomResults
+from .spread import figure_of, middle, power, quotient
 
 # name: (label, colour, marker)
 SCALARS = {
@@ -78,7 +79,7 @@ class Results(RoomResults):
     def median(self, *cell):
         """A Spread of (scalar, border, operation, N); None if not measured."""
         times = self.times.get(cell)
-        return Spread(statistics.median(times), min(times), max(times)) if times else None
+        return middle(times) if times else None
 
     def counts(self):
         return sorted({cell[3] for cell in self.times})
@@ -294,8 +295,7 @@ def len_floor(value):
 
 
 def time_cell(results, *cell):
-    times = results.times.get(cell)
-    return f'<td class="figure">{spread_text(times)}</td>' if times else "<td></td>"
+    return figure_cell(results.median(*cell))
 
 
 def time_rows(results):
@@ -376,7 +376,7 @@ PARTITION_TEXT = (
     "them still for what lies within epsilon outside. Their owns_extended gives the cut between the first two parts to "
     "both, and nobody what lies below a single part.")
 TIME_TEXT = (
-    "Three dimensions, 8 ranks (2 × 2 × 2), points in random order; median (lowest–highest). Columns begin at cache "
+    "Three dimensions, 8 ranks (2 × 2 × 2), points in random order; median (its limits). Columns begin at cache "
     "lines. Each wrap moves the same points as the one before: two boxes, half a box apart, take turns. No point of a "
     "lattice is ever outside, so its wrap has nothing to do and is left out.")
 DRIFT_TEXT = (
@@ -412,8 +412,7 @@ def sections(results, pyplot):
 def markdown(results):
     context = results.contexts[0]
     counts = results.counts()
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, {context['instruction_set']}, "
-             f"commit {context['commit']}."]
+    lines = [context_text(context, context["instruction_set"])]
     if results.times:
         lines += ["", f"ns per point, medians of {min(results.repetitions())} interleaved repetitions; in brackets, "
                   "the ratio to a plain read of the same columns.", "",

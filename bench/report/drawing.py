@@ -2,7 +2,8 @@
 """Small charts beside one another: each one a picture that is legible at the width of a phone."""
 import html
 
-from .page import GRID, INK, PALETTE, PAPER, folded, svg_of
+from .page import folded
+from .pictures import GRID, INK, PALETTE, PAPER, svg_of
 
 SIZE = (4.1, 3.0)  # inches, so that text of 9 points is 11 pixels high on a phone
 BOX = (.135, .155, .64, .72)  # left, bottom, width, height of what the axes enclose; labels stand on the right of it

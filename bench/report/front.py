@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What the page begins with: what was measured and where, what is missing, and the five charts."""
-import html
-
 from .charts import CHARTS
-from .page import FEWEST, listed
+from .page import escaped
+from .spread import FEWEST, listed
 
 ALIGNED = " -falign-loops=64"  # of the room store alone, by intention: see bench/CMakeLists.txt
 # What has to be the same in all files of one page: key, how it is called
 SAME = (("machine", "machines"), ("instruction_set", "instruction sets"), ("compiler", "compilers"), ("flags", "flags"),
         ("commit", "commits"))
-
-
-def escaped(text):
-    return html.escape(text, quote=False)
 
 
 def values_of(contexts, key):

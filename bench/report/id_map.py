@@ -4,13 +4,14 @@ import html
 import math
 import os
 import re
-import statistics
 from collections import defaultdict
 
+from .claims import Claim
 from .drawing import Look, label_at, label_ends, legend, mark_upright, new_panel, panel, panels
-from .page import (Claim, Spread, apart, figure_of, folded, limits, markdown_row, plain_ticks, power, quotient,
-                   runs_of_choice, spans_text, spread_text, table)
+from .page import context_text, figure_cell, folded, markdown_row, table
+from .pictures import plain_ticks
 from .reading import RoomResults
+from .spread import apart, figure_of, limits, middle, power, quotient, runs_of_choice, spans_text
 
 OWN = ("dense", "bitmap", "paged", "flat", "chained_mixed", "chained_mod_prime")
 RIVALS = ("std_unordered_map", "boost_flat_map", "absl_flat_hash_map", "absl_prefetched")
@@ -103,7 +104,7 @@ class Results(RoomResults):
     def median(self, pattern, count, ratio, series, operation):
         """A Spread; None if not measured."""
         times = self.times.get((pattern, count, ratio, series, operation))
-        return Spread(statistics.median(times), min(times), max(times)) if times else None
+        return middle(times) if times else None
 
     def best(self, candidates, pattern, count, ratio, operation):
         """(median, series) of the fastest candidate, or None."""
@@ -443,9 +444,9 @@ def spread_cell(results, point, series, operation):
         held = results.memory.get((*point, series))
         if held:
             return f'<td class="figure">{figure_of(held)}</td>'
-    times = results.times.get((*point, series, operation))
-    if times:
-        return f'<td class="figure">{spread_text(times)}</td>'
+    time = results.median(*point, series, operation)
+    if time:
+        return figure_cell(time)
     cell = (*point, series)
     if cell in results.refused:
         return f'<td title="{html.escape(results.refused[cell], quote=True)}">refused</td>'
@@ -476,7 +477,7 @@ def sweep_section(results, pyplot):
 def what_of(measure):
     if measure == "memory":
         return MEASURES["memory"]
-    return f"{', '.join(OPERATIONS[measure])}: median (lowest–highest)"
+    return f"{', '.join(OPERATIONS[measure])}: median (its limits)"
 
 
 def pattern_section(results):
@@ -529,9 +530,8 @@ def markdown(results):
     context = results.contexts[0]
     columns = [s for s in (DEFAULT, DEFAULT_PORTABLE, "flat", "dense", LIGGGHTS, *RIVALS, "oracle")
                if any(key[3] == s for key in results.times)]
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, {context['instruction_set']}, "
-             f"commit {context['commit']}. Uniform 64-bit ids, T/N = 8; ns per particle or look-up, medians of "
-             f"{min(len(t) for t in results.times.values())} interleaved repetitions.", "",
+    lines = [f"{context_text(context, context['instruction_set'])} Uniform 64-bit ids, T/N = 8; ns per particle or "
+             f"look-up, medians of {min(results.repetitions())} interleaved repetitions.", "",
              markdown_row(["operation", "N", *(head_label(s) for s in columns), "best rival / default"]),
              "|" + "---|" * (len(columns) + 3)]
     for operation in ("rebuild", "update", "find_hit", "find_half", "find_near", "find_single", "find_dependent"):
@@ -541,7 +541,7 @@ def markdown(results):
             rival = results.best(RIVALS, *point, operation)
             gain = quotient(rival and rival[0], results.median(*point, DEFAULT, operation))
             if any(values):
-                lines.append(markdown_row([operation.replace("_", " "), power(count),
+                lines.append(markdown_row([OPERATIONS[operation][0], power(count),
                                            *(figure_of(v) if v else "" for v in values),
                                            f"{gain:.2f}x" if gain else ""]))
     for count in results.counts():

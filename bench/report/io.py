@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Files: how fast particles are read and written, beside fscanf, fprintf and moving the same bytes."""
-import statistics
 from collections import defaultdict
 
-from .page import (INK, Claim, Spread, colour, figure_cell, figure_of, listed, markdown_row, power, quotient,
-                   ratio_cell, svg_of, table)
+from .claims import Claim
+from .page import context_text, figure_cell, markdown_row, ratio_cell, table
+from .pictures import INK, colour, svg_of
 from .reading import RoomResults
+from .spread import Spread, figure_of, listed, middle, power, quotient, scaled
 
 # (task, variant): what the rows of charts and tables are called
 TASKS = {
@@ -65,7 +66,7 @@ class Results(RoomResults):
     def rate(self, task, variant, series, count):
         """MB/s, a Spread; None if not measured."""
         found = self.rates.get((task, variant, series, count))
-        return Spread(*(f(found) / 1e6 for f in (statistics.median, min, max))) if found else None
+        return scaled(middle(found), 1e-6) if found else None
 
     def over(self, task, variant, rival, count):
         """How many times as fast as the rival; of the seconds, since a rival may write other bytes."""
@@ -191,7 +192,7 @@ def time_sentence(results):
 
 FILE_TEXT = (
     "The reader of tsubu checks each line and keeps its number, so that an error names the place; fscanf of the same "
-    "numbers into arrays checks the count of what it read. Median (lowest–highest). Scales are logarithmic. tsubu / C "
+    "numbers into arrays checks the count of what it read. Median (its limits). Scales are logarithmic. tsubu / C "
     "compares the time for the same particles, whatever the length of their numbers.")
 
 
@@ -215,7 +216,7 @@ def sections(results, pyplot):
 
 def markdown(results):
     context = results.contexts[0]
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, commit {context['commit']}.", "",
+    lines = [context_text(context), "",
              f"MB/s, medians of {min(results.repetitions())} interleaved repetitions; in brackets how many times as "
              "fast tsubu is for the same particles.", "",
              markdown_row(["file", "N", "tsubu", "fscanf, fprintf", "the bytes alone"]), "|" + "---|" * 5]

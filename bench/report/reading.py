@@ -6,10 +6,12 @@ import json
 import os
 import zlib
 
-from .page import Refusal
-
 REQUIRED_CONTEXT = ("machine", "compiler", "flags", "commit", "instruction_set", "huge_pages", "date")
 ROOMS = ("id", "domain", "store", "io", "comm", "dem")  # in the order of the page
+
+
+class Refusal(Exception):
+    """The input is not what the report can be made from."""
 
 
 class RoomResults:

@@ -2,10 +2,12 @@
 """The particle store: what a layout costs beside the same by hand, what a sort saves, what growth copies."""
 from collections import defaultdict
 
+from .claims import Claim
 from .drawing import Look
-from .page import (GRID, INK, Claim, as_good, colour, figure_of, folded, listed, markdown_row, middle, power,
-                   quotient, ratio_cell, spread_text, svg_of, table)
+from .page import context_text, escaped, figure_cell, folded, markdown_row, ratio_cell, table
+from .pictures import GRID, INK, colour, svg_of
 from .reading import RoomResults
+from .spread import as_good, figure_of, listed, middle, power, quotient
 
 LOOKS = {"soa": Look("soa, the default: an array per field", "blue", "o", short="soa"),
          "aos": Look("aos: an array of records", "vermilion", "s", "--", short="aos"),
@@ -366,8 +368,8 @@ def pair_table(results, operation):
         for layout in LOOKS:
             found = results.pairs.get((layout, operation, count))
             if found:
-                row += [f'<td class="figure">{spread_text([store for store, *_ in found])}</td>',
-                        f'<td class="figure">{spread_text([hand for _, hand, _ in found])}</td>',
+                row += [figure_cell(middle([store for store, *_ in found])),
+                        figure_cell(middle([hand for _, hand, _ in found])),
                         ratio_cell(results.ratio(layout, operation, count))]
             else:
                 row += ["", "", ""]
@@ -406,9 +408,8 @@ def sort_table(results):
         for curve in ("morton", "hilbert"):
             if (curve, count) not in results.orders:
                 continue
-            times = results.orders[(curve, count)]
-            order = middle(times)
-            row = [power(count), ORDERS[curve][0], f'<td class="figure">{spread_text(times)}</td>']
+            order = middle(results.orders[(curve, count)])
+            row = [power(count), ORDERS[curve][0], figure_cell(order)]
             for layout in LOOKS:
                 before, after = (results.gather(layout, o, count) for o in ("random", curve))
                 row.append(f"{figure_of(before)} → {figure_of(after)}" if before and after else "")
@@ -438,8 +439,7 @@ def append_table(results):
     rows = []
     for count in sorted({n for _, n in results.appends}):
         rows.append([power(count)] + [
-            f'<td class="figure">{spread_text(results.appends[(series, count)])}</td>'
-            if (series, count) in results.appends else "" for series in APPENDS])
+            figure_cell(middle(results.appends[(series, count)])) if (series, count) in results.appends else "" for series in APPENDS])
     return table(["Appends, ns each"] + [name for name, *_ in APPENDS.values()], rows)
 
 
@@ -466,7 +466,7 @@ def sections(results, pyplot):
         for operation, (title, unit, _) in OPERATIONS.items():
             if results.counts(operation):
                 parts.append(f"<figure>{svg_of(pair_chart(results, operation, pyplot), pyplot, title)}" +
-                             folded(f"Figures: {unit}, median (lowest–highest)", pair_table(results, operation)) +
+                             folded(f"Figures: {unit}, median (its limits)", pair_table(results, operation)) +
                              "</figure>")
         parts.append(f"<figure>{svg_of(ratio_chart(results, pyplot), pyplot, 'Store / by hand')}</figure></div>")
         parts.append("<h3>Bytes per particle</h3><p>A place is one of the capacity, which is whole blocks of 16384."
@@ -481,13 +481,9 @@ def sections(results, pyplot):
                      folded("Figures: elements copied", copies_table(results)) + "</figure>")
         if results.appends:
             parts.append(f"<figure>{svg_of(append_chart(results, pyplot), pyplot, 'What an append takes')}" +
-                         folded("Figures: ns per append, median (lowest–highest)", append_table(results)) + "</figure>")
+                         folded("Figures: ns per append, median (its limits)", append_table(results)) + "</figure>")
         parts.append("</div>")
     return "".join(parts)
-
-
-def escaped(text):
-    return text.replace("&", "&amp;").replace("<", "&lt;")
 
 
 # ---------------------------------------------------------------------------------------------------------------
@@ -510,7 +506,7 @@ def markdown_carried(results):
 def markdown(results):
     context = results.contexts[0]
     counts = results.counts()
-    lines = [f"{context['machine']}, {context['compiler']}, `{context['flags']}`, commit {context['commit']}."]
+    lines = [context_text(context)]
     if results.pairs:
         repetitions = min(len(t) for t in results.pairs.values())
         lines += ["", f"ns per particle, medians of {repetitions} repetitions; in brackets the ratio to the same by "

@@ -15,7 +15,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "bench"))
 
-from report import compare, dem, drawing, front, id_map, page, store  # noqa: E402
+from report import compare, dem, drawing, front, id_map, pictures, reading, spread, store  # noqa: E402
 from report.__main__ import Figures, ROOMS, main  # noqa: E402
 from report.charts import layouts, patterns, precision, sparsity, stability  # noqa: E402
 
@@ -47,38 +47,38 @@ def map_rows(times, count=100000, pattern="uniform", noise=NOISE, memory=8.0):
 
 class Noise(unittest.TestCase):
     def test_the_interval_of_few_repetitions_is_all_of_them(self):
-        found = page.middle([5, 1, 4, 2, 3])
+        found = spread.middle([5, 1, 4, 2, 3])
         self.assertEqual((found, found.low, found.high), (3, 1, 5))
 
     def test_the_interval_of_many_leaves_the_extremes_out(self):
-        found = page.middle([1, 2, 3, 4, 5, 6, 7, 8, 100])  # 1 - 2 * (1 + 9) / 2^9 = 96 %
+        found = spread.middle([1, 2, 3, 4, 5, 6, 7, 8, 100])  # 1 - 2 * (1 + 9) / 2^9 = 96 %
         self.assertEqual((found, found.low, found.high), (5, 2, 8))
-        found = page.middle(range(1, 16))  # 1 - 2 * (1 + 15 + 105 + 455) / 2^15 = 96 %
+        found = spread.middle(range(1, 16))  # 1 - 2 * (1 + 15 + 105 + 455) / 2^15 = 96 %
         self.assertEqual((found.low, found.high), (4, 12))
 
     def test_medians_differ_if_their_intervals_do_not_overlap(self):
-        a, b, c = page.Spread(10, 9, 11), page.Spread(12, 11, 13), page.Spread(12, 11.1, 13)
-        self.assertFalse(page.apart(a, b))
-        self.assertTrue(page.apart(a, c))
-        self.assertTrue(page.apart(c, a))
+        a, b, c = spread.Spread(10, 9, 11), spread.Spread(12, 11, 13), spread.Spread(12, 11.1, 13)
+        self.assertFalse(spread.apart(a, b))
+        self.assertTrue(spread.apart(a, c))
+        self.assertTrue(spread.apart(c, a))
 
     def test_as_good_as_the_best_are_those_within_noise_of_it(self):
-        values = {"a": page.Spread(10, 9, 11), "b": page.Spread(10.5, 10, 12), "c": page.Spread(20, 19, 21), "d": None}
-        self.assertEqual(page.as_good(values), ["a", "b"])
+        values = {"a": spread.Spread(10, 9, 11), "b": spread.Spread(10.5, 10, 12), "c": spread.Spread(20, 19, 21), "d": None}
+        self.assertEqual(spread.as_good(values), ["a", "b"])
 
     def test_a_choice_changes_only_beyond_noise(self):
-        exact = lambda **v: {k: page.Spread(x, x - 1, x + 1) for k, x in v.items()}
+        exact = lambda **v: {k: spread.Spread(x, x - 1, x + 1) for k, x in v.items()}
         costs = {1: exact(a=10, b=20), 2: exact(a=15, b=14), 4: exact(a=30, b=14)}
-        runs = page.runs_of_choice([1, 2, 4], costs.get)
+        runs = spread.runs_of_choice([1, 2, 4], costs.get)
         self.assertEqual(runs, [("a", [1, 2]), ("b", [4])])
-        self.assertEqual(page.spans_text(runs, "x = "), "a up to x = 2 and b at 4")
+        self.assertEqual(spread.spans_text(runs, "x = "), "a up to x = 2 and b at 4")
 
     def test_one_place_is_not_everywhere(self):
-        self.assertEqual(page.spans_text([("a", [8])], "T/N = "), "a at T/N = 8")
-        self.assertEqual(page.spans_text([("a", [1, 8])], "T/N = "), "a everywhere")
+        self.assertEqual(spread.spans_text([("a", [8])], "T/N = "), "a at T/N = 8")
+        self.assertEqual(spread.spans_text([("a", [1, 8])], "T/N = "), "a everywhere")
 
     def test_powers(self):
-        self.assertEqual([page.power(n) for n in (1, 64, 10000, 400000, 10**6, 50123)],
+        self.assertEqual([spread.power(n) for n in (1, 64, 10000, 400000, 10**6, 50123)],
                          ["1", "64", "1e4", "4e5", "1e6", "50123"])
 
 
@@ -145,6 +145,10 @@ class Sentences(unittest.TestCase):
         self.assertIn("below 1e-5 choose PEFRL", text)  # which Verlet does not reach here
         self.assertIn("below 1 % choose PEFRL", front.sentence(precision, self.scenes(pefrl_cost=5)))
 
+    def test_advised_limit_is_never_above_the_limit(self):
+        texts = [stability.safe_text(limit) for limit in (2.0, 2.989, 2.828427, .8284)]
+        self.assertEqual(texts, ["2.00", "2.98", "2.82", "0.82"])
+
     def test_stability_tells_theory_and_what_was_lost(self):
         rows = [{"name": "dem/walls/0/velocity_verlet/double", "omega_dt": w, "error": e}
                 for w, e in ((1, .1), (1.95, 1), (2.05, 1e9), (2.5, 1e9))]
@@ -190,13 +194,13 @@ class Drawing(Folder):
         self.assertIn("Not in these figures: <code>bench/run --only dem</code>", text)
         self.assertIn("Not measured, since not found: Boost 1.81 or later and Abseil", text)
         self.assertNotIn("src=", text)  # nothing from elsewhere
-        for stand_in, *_ in page.PALETTE.values():
+        for stand_in, *_ in pictures.PALETTE.values():
             self.assertNotIn(stand_in, text)  # all colours are those of the page, light or dark
 
     def test_a_series_of_the_users_own_is_on_the_charts(self):
         times = {"flat": {1: 3, 8: 3}, "tree": {1: 5, 8: 6}, "bush": {1: 7, 8: 7}}
         results = results_of(id_map, map_rows(times) + map_rows({"flat": {8: 3}, "tree": {8: 5}}, pattern="lattice"))
-        pyplot = page.plotting()
+        pyplot = pictures.plotting()
         for chart in (sparsity, patterns):
             drawn, figures = chart.drawn(results, pyplot), chart.figures(results)
             for name in ("tree", "bush"):
@@ -209,10 +213,10 @@ class Drawing(Folder):
 
     def test_a_picture_keeps_its_texts(self):
         """Those with powers and with several lines are drawn in parts."""
-        pyplot = page.plotting()
+        pyplot = pictures.plotting()
         figure, axes = pyplot.subplots()
         axes.set(xscale="log", xlim=(1, 1e8), title="one line\nand another")
-        picture = xml.etree.ElementTree.fromstring(page.svg_of(figure, pyplot, "powers"))
+        picture = xml.etree.ElementTree.fromstring(pictures.svg_of(figure, pyplot, "powers"))
         words = ["".join(text.itertext()).strip() for text in picture.iter("{http://www.w3.org/2000/svg}text")]
         for word in ("one line", "and another", "0.4", "1.0"):
             self.assertIn(word, words)
@@ -302,7 +306,7 @@ class Front(Folder):
         with open(no_rows, "w", encoding="utf-8") as file:
             json.dump({"context": CONTEXT}, file)
         for bad in (path, cut, no_rows, self.file("no_machine.json", [], machine="")):
-            with self.assertRaises(page.Refusal):
+            with self.assertRaises(reading.Refusal):
                 Figures([bad])
 
 
@@ -377,12 +381,12 @@ class Comparison(Folder):
         self.assertNotIn("DIFFERENT", self.compared(rows, rows).text())
 
     def test_nothing_in_common_is_refused(self):
-        with self.assertRaises(page.Refusal):
+        with self.assertRaises(reading.Refusal):
             self.compared(map_rows({"flat": {1: 10}}),
                           [{"name": "dem/walls/0/pefrl/double", "omega_dt": 1, "error": 1}])
         empty = os.path.join(self.folder.name, "empty")
         os.mkdir(empty)
-        with self.assertRaises(page.Refusal):
+        with self.assertRaises(reading.Refusal):
             compare.Run(empty)
 
     def test_all_kinds_of_rows_have_a_cost(self):
@@ -411,5 +415,5 @@ class Comparison(Folder):
 
 if __name__ == "__main__":
     if not importlib.util.find_spec("matplotlib"):
-        page.go_on_with_system_python()  # which may have it; else what draws is skipped, and said to be
+        pictures.go_on_with_system_python()  # which may have it; else what draws is skipped, and said to be
     unittest.main()

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Chart 3: which layout, as particles carry more."""
 from ..drawing import label_ends, legend, new_panel, panel, panels, tables
-from ..page import apart, figure_of, listed, plain_ticks, power, runs_of_choice, spans_text, spread_text, table
+from ..page import spread_text, table
+from ..pictures import plain_ticks
+from ..spread import apart, figure_of, listed, power, runs_of_choice, spans_text
 from ..store import LOOKS
 
 ROOM = "store"
@@ -79,7 +81,7 @@ def growth_text(results, count):
             texts.append(f"{growth} in {look.short}")
     if not texts:
         return ""
-    return f"from {sizes[0]} to {sizes[-1]} bytes an update, which needs no more of them, comes to take {listed(texts)}"
+    return f"an update needs the same fields of {sizes[0]} bytes and of {sizes[-1]}; with the latter it takes {listed(texts)}"
 
 
 def advice(results):
@@ -94,7 +96,7 @@ def time_cell(results, cell):
     time = results.carried_time(*cell)
     if not time:
         return "<td></td>"
-    return (f'<td class="figure">{spread_text(results.carried[cell])} '
+    return (f'<td class="figure">{spread_text(time)} '
             f"<small>{figure_of(1e3 * time / cell[2])} ps per byte</small></td>")
 
 
@@ -106,6 +108,6 @@ def figures(results):
             for layout, look in LOOKS.items():
                 cells = [time_cell(results, (layout, operation, size, count)) for size in sizes_of(results, count)]
                 rows.append([title.split(",")[0], look.short, *cells])
-        parts.append((f"{power(count)} particles: ns, median (lowest–highest), and by the bytes carried",
+        parts.append((f"{power(count)} particles: ns, median (its limits), and by the bytes carried",
                       table(["", "Layout", *(f"{b} bytes" for b in sizes_of(results, count))], rows)))
     return tables(parts)

@@ -3,7 +3,8 @@
 from ..drawing import legend, new_panel, panel, panels, tables
 from ..id_map import (DEFAULT, LIGGGHTS, LOOKS, MEASURES, PATTERNS, RIVALS, drawn_looks, pattern_points,
                       pattern_size, pattern_table)
-from ..page import apart, figure_of, limits, plain_ticks, power, quotient
+from ..pictures import plain_ticks
+from ..spread import apart, figure_of, limits, power, quotient
 
 ROOM = "id"
 TITLE = "What if ids are as simulations make them?"
@@ -95,7 +96,7 @@ def advice(results):
 
 def figures(results):
     names = {p: PATTERNS[p] for p in measured(results)}
-    spread = lambda measure: "" if measure == "memory" else ": median (lowest–highest)"
+    spread = lambda measure: "" if measure == "memory" else ": median (its limits)"
     return tables([(f"{title}, {power(pattern_size(results))} particles{spread(measure)}",
                     pattern_table(results, pattern_size(results), names, measure))
                    for measure, title in MEASURES.items()])

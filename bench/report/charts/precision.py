@@ -4,7 +4,9 @@ import math
 
 from ..dem import LAWS, LOOKS, TOLERANCE, order_of
 from ..drawing import LOW_BOX, label_ends, legend, new_panel, panel, panels, tables
-from ..page import INK, apart, figure_cell, figure_of, log_ticks, quotient, scaled, short_power, table
+from ..page import figure_cell, table
+from ..pictures import INK, log_ticks
+from ..spread import apart, figure_of, quotient, scaled, short_power
 
 ROOM = "dem"
 TITLE = "What does precision cost?"
@@ -187,14 +189,15 @@ def numbers_advice(results):
     if not gains:
         return [("other numbers than double save nothing beyond noise", "")]
     series, (gain, where) = max(gains.items(), key=lambda g: g[1])
-    return [(f"of other numbers “{LOOKS[series].label}” saves most: up to {figure_of(gain)} times", where)]
+    return [(f"of other numbers “{LOOKS[series].label}” saves most: double takes up to {figure_of(gain)} times as "
+             "long", where)]
 
 
 def tolerance_text(results):
-    """1 %, of the energy 1e-4,"""
-    special = [f"of the {scene.what} {short_power(scene.tolerance)}," for scene in scenes(results)
+    """1 % (1e-4 of the energy)"""
+    special = [f"{short_power(scene.tolerance)} of the {scene.what}" for scene in scenes(results)
                if scene.tolerance != TOLERANCE]
-    return f"{100 * TOLERANCE:g} %" + "".join(f", {text}" for text in special)
+    return f"{100 * TOLERANCE:g} %" + (f" ({', '.join(special)})" if special else "")
 
 
 def advice(results):
@@ -250,5 +253,5 @@ def figures(results):
                       order_table(results, "oblique", [("rolls", "sticks"), ("slides", "slides")])))
     if results.has("gas"):
         parts.append(("The same: elastic gas", order_table(results, "gas", [("hooke", "Hooke")], 1e-4)))
-    return tables(parts + [("What a step costs: ns per particle-step, median (limits of the median)",
+    return tables(parts + [("What a step costs: ns per particle-step, median (its limits)",
                             cost_table(results)), ("How it was measured", f"<p>{METHOD}</p>")])

@@ -3,13 +3,14 @@
 from ..drawing import legend, panels, tables
 from ..id_map import (DEFAULT, MEASURES, OPERATIONS, RIVALS, choice_text, choices, draw_sweep, drawn_looks, own_costs,
                       short_label, sweep_counts, sweep_panel, sweep_table, value_of)
-from ..page import Refusal, apart, figure_of, power, quotient
+from ..reading import Refusal
+from ..spread import apart, figure_of, power, quotient
 
 ROOM = "id"
 TITLE = "Which table for which ids?"
-QUESTION = ("Time and memory of a map from global ids to local indices, over T/N: the range of the ids by their "
-            "number, 1 where they are numbered without gaps. Dotted uprights: where the best of our own tables "
-            "changes. Tinted: from the lowest to the highest repetition.")
+QUESTION = ("Time and memory of a map from global ids to local indices, over T/N: the range of the ids divided by "
+            "their number, 1 where they are numbered without gaps. Dotted uprights: where the best of our own tables "
+            "changes. Tinted: the limits of the median.")
 ABSENT = "bench/run --only id"
 
 
@@ -96,6 +97,6 @@ def advice(results):
 
 
 def figures(results):
-    spread = lambda measure: "" if measure == "memory" else ": median (lowest–highest)"
+    spread = lambda measure: "" if measure == "memory" else ": median (its limits)"
     return tables([(f"{title}, {power(count)} particles{spread(measure)}", sweep_table(results, count, measure))
                    for count in reversed(sweep_counts(results)) for measure, title in MEASURES.items()])

@@ -4,7 +4,9 @@ import math
 
 from ..dem import LAWS, LOOKS, LOST, TOLERANCE
 from ..drawing import label_ends, legend, mark_upright, new_panel, panel, panels, shaded, tables
-from ..page import colour, figure_of, listed, log_ticks, table
+from ..page import table
+from ..pictures import colour, log_ticks
+from ..spread import figure_of, listed
 
 ROOM = "dem"
 TITLE = "How long may a step be?"
@@ -198,13 +200,18 @@ def drawn(results, pyplot):
     return legend(shown, pyplot) + panels(parts)
 
 
+def safe_text(limit):
+    """Two digits that are not above the limit."""
+    return f"{math.floor(limit * 100 + 1e-9) / 100:.2f}"
+
+
 def walls_advice(results):
     """Integrators of the same limit together."""
     limits, lost = {}, []
     for (integrator, number), look in LOOKS.items():
         broken = broken_at(results, "0", integrator) if number == "double" and integrator in THEORY else None
         if broken:
-            limits.setdefault(f"{limit_of(integrator, 0):.2f}", []).append(look.label)
+            limits.setdefault(safe_text(limit_of(integrator, 0)), []).append(look.label)
             lost.append(f"{broken:.2f}")
     found = []
     if limits:
@@ -223,7 +230,7 @@ def damped_advice(results):
         return []
     zeta, at, implicit = found[-1]
     text = ("with damping of the half step keep it below 2 √(1 + ζ²) − 2 ζ, which is "
-            f"{verlet_limit(float(zeta)):.2f} at ζ = {zeta}")
+            f"{safe_text(verlet_limit(float(zeta)))} at ζ = {zeta}")
     numbers = f"lost at {at:.2f}"
     if implicit:
         text += ", or choose the implicit damping, which holds to 2"
@@ -240,7 +247,7 @@ def bed_advice(results):
     if not within or not beyond:
         return []
     low, high = min(within), max(within)
-    found = [(f"in a bed choose the step that longest_time_step allows, {limit:.2f} √(m/k): up to it there are "
+    found = [(f"in a bed choose the step that longest_time_step allows, {safe_text(limit)} √(m/k): up to it there are "
               f"{low:.2f} to {high:.2f} contacts per particle", "")]
     broken = next((r for r in beyond if not low - .1 <= r["coordination"] <= high + .1), None)
     if broken:

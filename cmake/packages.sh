@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Sourced by tests/run and bench/run: what is missing on this machine, and how it gets there.
+# Sourced by tests/run, bench/run and bench/scene: what is missing on this machine, and how it gets there.
 #
 #   need "what it is" "Debian packages, best first, separated by |" "remedy elsewhere" command...
 #       notes the thing as missing unless the command succeeds
@@ -142,13 +142,3 @@ provide() { # the function that calls need and want for everything
     say_missing
     give_up_if_needed "still missing after the installation"
 }
-
-# As cmake/mpi_test.cmake has it: only Open MPI's launcher knows these two options, and needs them in containers.
-is_open_mpi() { mpiexec --version 2>&1 | grep -qE 'Open MPI|OpenRTE|PRTE'; }
-launcher_of_this_machine() {
-    printf mpiexec
-    ! is_open_mpi || printf ' --allow-run-as-root --oversubscribe'
-}
-jobs_of_this_machine() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN 2>/dev/null || printf 2; }
-# The generator may be chosen only when a build directory is new.
-generator_for() { [ -e "$1/CMakeCache.txt" ] || ! have ninja || printf -- '-GNinja'; }

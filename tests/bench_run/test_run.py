@@ -67,8 +67,8 @@ class Run(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        for name in ("bench/run", "cmake/packages.sh"):
-            (self.folder / name).parent.mkdir()
+        for name in ("bench/run", "cmake/packages.sh", "cmake/machine.sh"):
+            (self.folder / name).parent.mkdir(exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
         self.out = self.folder / "bench/out"
         tools = self.folder / "tools"

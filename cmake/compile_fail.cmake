@@ -22,7 +22,7 @@ endif()
 set(compile_fail_script "${CMAKE_CURRENT_LIST_FILE}")
 
 function(add_compile_fail_command name words)
-    set(command "${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror")
+    set(command "${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only ${TSUBU_STRICT_FLAGS}")
     string(APPEND command " -I \"${PROJECT_SOURCE_DIR}/include\" ${ARGN}")
     add_test(NAME "${name}" COMMAND "${CMAKE_COMMAND}" "-DCOMMAND=${command}" "-DWORDS=${words}"
         -P "${compile_fail_script}")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs a recipe of cmake/packaging without its package system, and uses what it has made.
 
-recipes.py vcpkg|conan|spack SOURCE WORK PREFIX VERSION COMPILER
+recipes.py vcpkg|conan|spack SOURCE WORK PREFIX VERSION COMPILER FLAGS
 
 What the recipe calls is stood in for by the few lines below and by vcpkg_functions.cmake, which do what the
 documentation of the three systems says that their functions do. So this finds a path, a name, an option or a version
@@ -19,7 +19,6 @@ import subprocess
 import sys
 import types
 
-STRICT = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wsign-conversion -Werror"
 PROGRAM = """#include <tsubu/core/vec.hpp>
 #include <tsubu/version.hpp>
 static_assert(TSUBU_VERSION == {});
@@ -43,9 +42,9 @@ def run(*command):
 class Package:
     """What a recipe is to make: the same headers as the install, and a package that a consumer can use."""
 
-    def __init__(self, source, work, prefix, version, compiler):
+    def __init__(self, source, work, prefix, version, compiler, flags):
         self.source, self.work, self.prefix = pathlib.Path(source), pathlib.Path(work), pathlib.Path(prefix)
-        self.version, self.compiler = version, compiler
+        self.version, self.compiler, self.flags = version, compiler, flags
         shutil.rmtree(self.work, ignore_errors=True)
         self.made = self.work / "made"
         self.work.mkdir(parents=True)
@@ -67,12 +66,12 @@ class Package:
         shutil.copytree(self.source / "tests/package/find_package", mine)
         shutil.copy(self.program, mine)
         run("cmake", "-S", mine, "-B", mine / "build", f"-DCMAKE_CXX_COMPILER={self.compiler}",
-            f"-DCMAKE_CXX_FLAGS={STRICT}", f"-DCMAKE_PREFIX_PATH={self.made}")
+            f"-DCMAKE_CXX_FLAGS={self.flags}", f"-DCMAKE_PREFIX_PATH={self.made}")
         run("cmake", "--build", mine / "build")
         run(mine / "build/mine")
 
     def use_by_compiler(self, folders):
-        run(self.compiler, "-std=c++20", *STRICT.split(), *(f"-I{f}" for f in folders), self.program, "-o",
+        run(self.compiler, "-std=c++20", *self.flags.split(), *(f"-I{f}" for f in folders), self.program, "-o",
             self.work / "mine")
         run(self.work / "mine")
 
@@ -206,7 +205,7 @@ def spack(package):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 7 or sys.argv[1] not in ("vcpkg", "conan", "spack"):
+    if len(sys.argv) != 8 or sys.argv[1] not in ("vcpkg", "conan", "spack"):
         sys.exit(__doc__)
     {"vcpkg": vcpkg, "conan": conan, "spack": spack}[sys.argv[1]](Package(*sys.argv[2:]))
     print(f"{sys.argv[1]}: a package of tsubu {sys.argv[5]} was made and used")

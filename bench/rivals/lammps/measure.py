@@ -38,20 +38,15 @@ def write_particles(scene, cells, path):
         particles.write("gas" if scene == "gas" else "settle", cells, out)
 
 
-def run(scene, ranks, settings):
-    """Runs lmp; returns its output and the largest resident set of one rank in bytes."""
-    command = ["lmp", "-in", f"{scene}.lmp", "-log", "none"]
+def run(scene, settings):
+    """Runs lmp on core 0; returns its output and its largest resident set in bytes."""
+    command = ["taskset", "-c", "0", "lmp", "-in", f"{scene}.lmp", "-log", "none"]
     for name, value in settings.items():
         command += ["-var", name, *value.split(" ")]
-    if ranks == 1:
-        command = ["taskset", "-c", "0"] + command
-    else:
-        # Open MPI puts rank i on core i.
-        command = ["mpirun", "--allow-run-as-root", "--bind-to", "core", "-np", str(ranks)] + command
     environment = dict(os.environ, OMP_NUM_THREADS="1")
     with tempfile.TemporaryFile() as out:
         child = subprocess.Popen(command, cwd=HERE, env=environment, stdout=out, stderr=subprocess.STDOUT)
-        # wait4 sees this child alone, not earlier ones. Under mpirun it is the larger of launcher and rank.
+        # wait4 sees this child alone, not earlier ones.
         _, status, usage = os.wait4(child.pid, 0)
         out.seek(0)
         text = out.read().decode(errors="replace")
@@ -82,7 +77,6 @@ def main():
     parser.add_argument("scene", choices=sorted(p.stem for p in HERE.glob("*.lmp") if p.stem not in ("begin", "end")))
     parser.add_argument("--steps", type=int, required=True, help="timed steps, at least one")
     parser.add_argument("--warmup", type=int, default=0, help="steps before the timed ones")
-    parser.add_argument("--ranks", type=int, choices=(1, 2), default=1)
     parser.add_argument("--cells", type=int, nargs=3, metavar=("NX", "NY", "NZ"), help="particles along x, y and z")
     begin = parser.add_mutually_exclusive_group()
     begin.add_argument("--restart", help="start from this file instead of the formula")
@@ -102,7 +96,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         few = os.path.join(folder, "few.data")
         write_particles(arguments.scene, (2, 2, 2), few)
-        _, base = run(arguments.scene, arguments.ranks, dict(settings, file=few, steps="10", warmup="0"))
+        _, base = run(arguments.scene, dict(settings, file=few, steps="10", warmup="0"))
         if arguments.restart:
             settings.update(source="restart", file=os.path.abspath(arguments.restart))
         elif arguments.data:
@@ -112,25 +106,23 @@ def main():
             write_particles(arguments.scene, cells, settings["file"])
         if arguments.save:
             settings.update(saving="yes", save=os.path.abspath(arguments.save))
-        text, resident = run(arguments.scene, arguments.ranks, settings)
+        text, resident = run(arguments.scene, settings)
 
     # Four runs: warm-up, timed, one that prints the memory, one that counts contacts. The timed one prints no memory.
-    loops = re.findall(r"^Loop time of (\S+) on (\d+) procs for (\d+) steps with (\d+) atoms", text, re.MULTILINE)
-    seconds, ranks, steps, count = float(loops[1][0]), int(loops[1][1]), int(loops[1][2]), int(loops[1][3])
+    loops = re.findall(r"^Loop time of (\S+) on 1 procs for (\d+) steps with (\d+) atoms", text, re.MULTILINE)
+    seconds, steps, count = float(loops[1][0]), int(loops[1][1]), int(loops[1][2])
     mebibytes = re.findall(r"^Per MPI rank memory allocation .* = \S+ \| (\S+) \|", text, re.MULTILINE)
     _, timed, _, contacts = tables(text)
     first, last, contacts = timed[0], timed[-1], contacts[0]
     print(json.dumps({
         "scene": arguments.scene,
         "particles": count,
-        "ranks": ranks,
         "first_step": int(first["Step"]),
         "steps": steps,
         "seconds": seconds,
         "mparticle_steps_per_s": round(count * steps / seconds / 1e6, 3) if seconds > 0 else None,
-        "bytes_per_particle": round(float(mebibytes[1]) * 1024 * 1024 * ranks / count, 1),
-        # One rank's growth times the ranks.
-        "resident_bytes_per_particle": round((resident - base) * ranks / count, 1),
+        "bytes_per_particle": round(float(mebibytes[1]) * 1024 * 1024 / count, 1),
+        "resident_bytes_per_particle": round((resident - base) / count, 1),
         "builds": int(last["Nbuild"] - first["Nbuild"]),
         "dangerous_builds": int(last["Ndanger"] - first["Ndanger"]),
         "ke": last["KinEng"],

@@ -93,7 +93,7 @@ struct unique_links_unwritten : sound {
             if (right[i] != absent) links[i] = right[i];
     }
 };
-/// Follows the notes' text instead of their scan: j < i.
+/// Follows the text of the description instead of its scan: j < i.
 struct links_point_downward : sound {
     static constexpr const char* breaks = "law 2";
     void rebuild(ids_t ids, range_t range, links_t links) {

@@ -29,7 +29,6 @@
 #include <string>       // std::to_string
 #include <tuple>        // std::get, std::tuple, std::tuple_size_v
 #include <type_traits>  // std::is_constructible_v
-#include <vector>       // std::vector
 
 namespace tsubu::dem {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// chained_storage: separate chaining with a pool of nodes, the notes' hash scheme; its hash is a policy.
+/// chained_storage: separate chaining with a pool of nodes, LIGGGHTS' hash scheme; its hash is a policy.
 #pragma once
 
 #include <tsubu/core/buffer.hpp>
@@ -36,7 +36,7 @@ namespace tsubu {
 
 /// Separate chaining with a pool of M nodes and a free list, in B buckets, B the smallest prime > M.
 ///
-///     tsubu::id_map<tsubu::chained_storage<tsubu::mod_prime>> where;   // the notes' scheme to the letter
+///     tsubu::id_map<tsubu::chained_storage<tsubu::mod_prime>> where;   // LIGGGHTS' scheme to the letter
 ///
 /// Capacity: M = max(1000, 2 N) when it is sized, and it is sized anew when N > M; N = M still fits. It never
 /// shrinks. The part of the rule that knows of other ranks is the caller's: reserve(ceil(N_total / P)).
@@ -47,7 +47,7 @@ namespace tsubu {
 /// Bytes per id:  40 at M = 2 N with 64-bit ids (32 with 32-bit ids).
 /// Growth:        to the capacity rule, by every path that inserts; M at least doubles.
 /// Deterministic: yes.
-/// Choose it when (mixed) ids come and go one by one between rebuilds, or (mod_prime) to reproduce the notes' scheme.
+/// Choose it when (mixed) ids come and go one by one between rebuilds, or (mod_prime) to reproduce LIGGGHTS' scheme.
 /// Do not when    speed or memory matter: flat_storage looks up 3 times faster in a quarter of the memory.
 /// Source:        A6 - A12.
 template <bucket_hash Hash = mixed, particle_id Id = std::int64_t, class Allocator = std::allocator<std::byte>>

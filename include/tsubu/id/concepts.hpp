@@ -9,7 +9,7 @@
 /// paged_storage               2 loads    O(N + pages)    4 per page entry    ids come in blocks
 /// flat_storage                1 line     O(N)            8 | 16 | 20         any ids: the general table
 /// chained_storage<mixed>      chain      O(N)            40                  many assign and erase between rebuilds
-/// chained_storage<mod_prime>  chain      O(N) .. O(N^2)  40                  to reproduce the notes' scheme, no more
+/// chained_storage<mod_prime>  chain      O(N) .. O(N^2)  40                  to reproduce LIGGGHTS' scheme, no more
 /// adaptive_storage (default)  as picked  as picked       as picked           you do not know the ids, or they change
 ///
 /// T is the range of the ids, highest - lowest; N their number.

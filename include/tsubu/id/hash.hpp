@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// From an id to a bucket: the notes' remainder, and a mixing hash.
+/// From an id to a bucket: LIGGGHTS' remainder, and a mixing hash.
 #pragma once
 
 #include <tsubu/core/random.hpp>
@@ -16,7 +16,7 @@ concept bucket_hash = std::semiregular<Hash> && requires(std::uint64_t t, std::u
     { Hash::bucket(t, bucket_count) } noexcept -> std::same_as<std::uint64_t>;
 };
 
-/// h(t) = t mod B, the notes' hash.
+/// h(t) = t mod B, LIGGGHTS' hash.
 ///
 /// Concept:       bucket_hash.
 /// Cost:          one 64-bit division.
@@ -38,7 +38,7 @@ static_assert(bucket_hash<mod_prime>);
 /// Concept:       bucket_hash.
 /// Cost:          three multiplications, no division.
 /// Choose it when you do not have to reproduce anything.
-/// Do not when    chains are to be those of the notes' scheme.
+/// Do not when    chains are to be those of LIGGGHTS' scheme.
 /// Source:        splitmix64; the multiply-shift reduction of Lemire 2019, doi:10.1145/3230636.
 struct mixed {
     [[nodiscard]] static constexpr std::uint64_t bucket(std::uint64_t t, std::uint64_t bucket_count) noexcept {

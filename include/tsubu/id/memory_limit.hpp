@@ -14,7 +14,7 @@ namespace tsubu {
 
 /// Upper bound on the table of a storage policy. [bytes]
 ///
-/// The default grows with the particles: 64 times what the notes' chained scheme would hold for them (40 bytes per
+/// The default grows with the particles: 64 times what LIGGGHTS' chained scheme would hold for them (40 bytes per
 /// particle), but never less than 16 MiB, below which no machine minds. So a dense table is refused when
 /// T_max / N passes about 640, and one particle with id 2 000 000 000 does not silently take 8 GB.
 ///

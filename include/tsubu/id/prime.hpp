@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Which prime comes next? The bucket count of the notes' hash scheme.
+/// Which prime comes next? The bucket count of LIGGGHTS' hash scheme.
 #pragma once
 
 #include <tsubu/core/error.hpp>
@@ -24,7 +24,7 @@ namespace tsubu {
 
 /// The smallest prime greater than n: 0 -> 2, 2 -> 3, 1000 -> 1009. A negative n yields 2.
 ///
-/// The formula as printed in the notes (A8) tries n + 2, n + 4, ...: for an even n, and the capacity is always
+/// The formula as the description prints it (A8) tries n + 2, n + 4, ...: for an even n, and the capacity is always
 /// even, it never finds one.
 ///
 /// @throws limit_error if no greater prime fits the type of n.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// How large is the notes' hash table? The sizing rule as free functions, exact in 64 bits.
+/// How large is LIGGGHTS' hash table? The sizing rule as free functions, exact in 64 bits.
 #pragma once
 
 #include <tsubu/core/error.hpp>

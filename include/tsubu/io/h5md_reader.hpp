@@ -15,7 +15,6 @@
 
 #include <algorithm>    // std::find, std::min
 #include <array>        // std::array
-#include <cerrno>       // errno
 #include <cstddef>      // std::byte, std::size_t
 #include <cstdint>      // std::int64_t, std::uint64_t
 #include <cstdio>       // std::fclose, std::fopen

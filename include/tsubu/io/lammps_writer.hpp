@@ -17,15 +17,14 @@
 #include <tsubu/store/term.hpp>
 #include <tsubu/store/topology.hpp>
 
-#include <algorithm>    // std::sort, std::swap
-#include <cmath>        // std::isfinite
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::int64_t, std::uint64_t
-#include <span>         // std::span
-#include <string>       // std::to_string
-#include <string_view>  // std::string_view
-#include <utility>      // std::in_range, std::move, std::pair
-#include <vector>       // std::vector
+#include <algorithm>  // std::sort, std::swap
+#include <cmath>      // std::isfinite
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::int64_t, std::uint64_t
+#include <span>       // std::span
+#include <string>     // std::to_string
+#include <utility>    // std::in_range, std::move, std::pair
+#include <vector>     // std::vector
 
 namespace tsubu {
 

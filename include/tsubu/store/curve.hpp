@@ -12,7 +12,6 @@
 #include <concepts>   // std::same_as
 #include <cstddef>    // std::size_t
 #include <cstdint>    // std::uint32_t, std::uint64_t
-#include <string>     // std::to_string
 #include <utility>    // std::pair
 #include <vector>     // std::vector
 

@@ -5,7 +5,7 @@
 /// | policy | reallocations of n appends | elements copied | choose it when |
 /// |---|---|---|---|
 /// | geometric_growth (default) | O(log n) | O(n) | the number of particles changes |
-/// | block_growth | n / 16384 | O(n^2) | results and memory of the notes' scheme are to be reproduced |
+/// | block_growth | n / 16384 | O(n^2) | results and memory of LIGGGHTS' scheme are to be reproduced |
 #pragma once
 
 #include <tsubu/core/error.hpp>
@@ -57,7 +57,7 @@ static_assert(growth_policy<geometric_growth>);
 
 /// One block more, whatever there is: 1e8 appends copy 3e11 elements.
 ///
-/// Concept: growth_policy. Choose it when the notes' memory is to be reproduced (C1). Do not when many are appended.
+/// Concept: growth_policy. Choose it when LIGGGHTS' memory is to be reproduced (C1). Do not when many are appended.
 struct block_growth {
     [[nodiscard]] constexpr std::uint64_t next(std::uint64_t capacity, std::uint64_t needed) const {
         return (std::max)(next_block(capacity), round_up(needed));

@@ -12,7 +12,6 @@
 
 #include <algorithm>    // std::binary_search, std::find
 #include <array>        // std::array
-#include <concepts>     // std::convertible_to
 #include <cstddef>      // std::size_t
 #include <cstdint>      // std::int32_t, std::int64_t, std::uint64_t
 #include <limits>       // std::numeric_limits

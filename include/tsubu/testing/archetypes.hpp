@@ -52,7 +52,7 @@ public:
     void rebuild(std::span<const Id> ids, id_range<Id> /*range*/, std::span<index_t> links) {
         std::map<Id, index_t> fresh;
         for (const auto t : ids) fresh.emplace(t, absent);
-        // The scan of the notes (A4, A13) takes no memory, so no link is written before all that can throw is done.
+        // The scan of A4 and A13 takes no memory, so no link is written before all that can throw is done.
         for (std::size_t i = ids.size(); i-- > 0;) {
             auto& index = fresh.find(ids[i])->second;
             if (!links.empty()) links[i] = index;

@@ -21,7 +21,7 @@ enum class id_pattern {
     repeated,       ///< about two copies of each id
     blocks,         ///< runs of 32 somewhere in 2^24
     sparse,         ///< random below 8 N
-    stride_1009,    ///< the bucket count of the notes' scheme at its least capacity
+    stride_1009,    ///< the bucket count of LIGGGHTS' scheme at its least capacity
     stride_32771,   ///< its bucket count for 16384 ids
     stride_65536,   ///< equal low 16 bits
     stride_2_32,    ///< equal low 32 bits

@@ -226,7 +226,7 @@ TEMPLATE_LIST_TEST_CASE("T8: nothing of an earlier build is left", "[id][T8][A4]
     CHECK(map.where.size() == 3);
 }
 
-TEMPLATE_LIST_TEST_CASE("T9: every policy gives the same map and links, across the capacity of the notes' scheme",
+TEMPLATE_LIST_TEST_CASE("T9: every policy gives the same map and links, across the capacity of LIGGGHTS' scheme",
                         "[id][T9][I5][A12]", policies) {
     random_stream random(9);
     built<TestType> map;
@@ -463,7 +463,7 @@ TEST_CASE("H1: multiples of the current bucket count after each growth", "[id][H
     }
 }
 
-TEST_CASE("the notes' scheme: a hit rewrites the index, a miss takes a free node, erase gives it back",
+TEST_CASE("LIGGGHTS' scheme: a hit rewrites the index, a miss takes a free node, erase gives it back",
           "[id][A10][A11][A12]") {
     id_map<chained_storage<mod_prime>> where;
     ids_t ids(chained_least_capacity);

@@ -7,11 +7,10 @@
 #include <tsubu/comm/mailbox.hpp>
 #include <tsubu/comm/transport.hpp>
 
-#include <cstdint>      // std::uint64_t
-#include <new>          // std::bad_alloc
-#include <span>         // std::span
-#include <type_traits>  // std::invoke_result_t, std::is_void_v
-#include <utility>      // std::forward
+#include <cstdint>  // std::uint64_t
+#include <new>      // std::bad_alloc
+#include <span>     // std::span
+#include <utility>  // std::forward
 
 namespace tsubu::detail {
 

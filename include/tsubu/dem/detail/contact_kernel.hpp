@@ -15,11 +15,10 @@
 #include <tsubu/dem/walls.hpp>
 #include <tsubu/neighbor/pair_list.hpp>
 
-#include <algorithm>    // std::min
-#include <cstddef>      // std::size_t
-#include <cstdint>      // std::uint32_t, std::uint8_t
-#include <span>         // std::span
-#include <type_traits>  // std::conditional_t
+#include <algorithm>  // std::min
+#include <cstddef>    // std::size_t
+#include <cstdint>    // std::uint32_t, std::uint8_t
+#include <span>       // std::span
 
 namespace tsubu::dem::detail {
 

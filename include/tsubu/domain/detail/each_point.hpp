@@ -17,7 +17,6 @@
 #include <cstddef>  // std::size_t
 #include <cstdint>  // std::uint64_t
 #include <cstring>  // std::memcpy, std::memset
-#include <span>     // std::span
 #include <string>   // std::to_string
 #include <utility>  // std::index_sequence
 

@@ -10,7 +10,6 @@
 #include <concepts>      // std::floating_point
 #include <cstddef>       // std::size_t
 #include <cstdint>       // std::int64_t
-#include <limits>        // std::numeric_limits
 #include <string>        // std::string
 #include <string_view>   // std::string_view
 #include <system_error>  // std::errc

@@ -40,7 +40,7 @@ public:
     id_storage_examiner(std::uint64_t seed, Check& check, const Storage& prototype)
         : seed_(seed), random_(seed), check_(check), prototype_(prototype), subject_(prototype) {}
 
-    /// Sizes around the capacities of the notes' scheme, 1000 and then twice the last count that did not fit.
+    /// Sizes around the capacities of LIGGGHTS' scheme, 1000 and then twice the last count that did not fit.
     void walk_sizes() {
         compare(testing::law::total);
         for (const std::size_t count : {0U, 1U, 2U, 1000U, 1001U, 2002U, 2003U, 4006U, 4007U, 1001U, 3U, 0U, 1U}) {

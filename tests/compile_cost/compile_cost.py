@@ -162,7 +162,7 @@ def markdown():
         if figures["all"] > heaviest.get(room, (0, 0, ""))[0]:
             heaviest[room] = (figures["all"], figures["own"], header)
     print(f"Lines after the preprocessor of {budget['preprocessor']}, without blank ones, of the heaviest header of "
-          f"each room.\n")
+          "each room but testing.\n")
     print("| header | lines | of them tsubu's |")
     print("|---|---|---|")
     for lines, own, header in sorted(heaviest.values()):

@@ -9,6 +9,7 @@ int main() {
     const tsubu::brick_decomposition bricks(box, on.ranks());
     tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>>> grains;
     if (on.rank() == 0) grains.push_back(tsubu::id = 901417, tsubu::position<3> = {2.98, 0.5, 0.5});
+    // grains[tsubu::radius][0] = 1;                        // does not compile: this store has no such field
     tsubu::migrate(grains, bricks, on);                     // each to the rank that owns its position
     auto halo = tsubu::make_halo(grains, bricks, 0.1, on);  // copies of what is near, and periodic images
     tsubu::id_map<> where;

@@ -22,8 +22,10 @@ LIBRARIES = {"MPI": ("mpi.h", "comm/detail/include_mpi.hpp", "mpi.hpp"),
              "HDF5": ("hdf5.h", "io/detail/hdf5_library.hpp", "hdf5.hpp")}
 BANNED_INCLUDES = {"iostream", "ranges", "functional", "random", "regex", "memory_resource", "format", "sstream"}
 BANNED_NAMES = re.compile(r"util|helper|common|misc|manager|data(?!_file)|info|process|handle|\bdo_")
-MAX_BYTES = 25 * 1024
+MAX_BYTES = 25000
 MAX_MACROS = 8
+# What the comment of a policy says beside its concept; the source only where there is one.
+CARD_PARTS = ("Cost", "Deterministic", "Choose it", "Do not")
 # Switches of <mpi.h>, which the header that includes it sets.
 MPI_SWITCHES = {"OMPI_SKIP_MPICXX", "MPICH_SKIP_MPICXX"}
 
@@ -72,15 +74,9 @@ def reach(graph, start):
     return seen
 
 
-def breaches(root):
-    base = root / "include" / "tsubu"
-    text = {str(p.relative_to(base)): p.read_text(encoding="utf-8") for p in sorted(base.rglob("*.hpp"))}
-    code = {h: without_comments(t) for h, t in text.items()}
-    graph = {h: re.findall(r"#\s*include\s*<tsubu/([^>]+)>", c) for h, c in code.items()}
+def include_breaches(text, graph):
+    """Each header includes its own room and those to its left."""
     bad = []
-    if not text:
-        return [f"{base}: no headers there"]
-
     for header, includes in graph.items():
         room = room_of(header)
         if room and room not in ROOMS:
@@ -101,10 +97,12 @@ def breaches(root):
                     bad.append(f"{header}: includes {to}; detail is for its own room only")
             elif header in UMBRELLAS and "/detail/" in to:
                 bad.append(f"{header}: an umbrella has no use for {to}")
-    for cycle in cycles(graph):
-        bad.append("cycle: " + " -> ".join(cycle))
+    return bad + ["cycle: " + " -> ".join(cycle) for cycle in cycles(graph)]
 
-    macros = {}
+
+def library_breaches(code):
+    """Includes of what is not ours."""
+    bad = []
     for header, content in code.items():
         for name in re.findall(r"#\s*include\s*<([^>]+)>", content):
             if name in BANNED_INCLUDES:
@@ -114,24 +112,42 @@ def breaches(root):
                     bad.append(f"{header}: <{theirs}> is included by {ours} only; include that")
         if re.search(r'#\s*include\s*"', content):
             bad.append(f'{header}: #include "..."; write #include <tsubu/...>')
+    return bad
+
+
+def macro_breaches(code):
+    macros = {}
+    for header, content in code.items():
         for macro in re.findall(r"#\s*define\s+(\w+)", content):
             if header != LIBRARIES["MPI"][1] or macro not in MPI_SWITCHES:
                 macros.setdefault(macro, header)
-        size = len(text[header].encode())
-        if size > MAX_BYTES:
-            bad.append(f"{header}: {size} bytes, {MAX_BYTES} is the most; split it into its ideas")
-        if not text[header].startswith("// SPDX-License-Identifier: MIT\n/// @file\n"):
-            bad.append(f"{header}: does not begin with the SPDX line and '/// @file'")
-        if header != "version.hpp" and "#pragma once" not in content:
-            bad.append(f"{header}: no #pragma once")
-        if BANNED_NAMES.search(header.split("/")[-1]):
-            bad.append(f"{header}: the name says nothing; name the idea")
-    for macro, header in macros.items():
-        if not macro.startswith("TSUBU_"):
-            bad.append(f"{header}: macro {macro} without TSUBU_")
+    bad = [f"{h}: macro {m} without TSUBU_" for m, h in macros.items() if not m.startswith("TSUBU_")]
     if len(macros) > MAX_MACROS:
         bad.append(f"{len(macros)} macros ({', '.join(sorted(macros))}); {MAX_MACROS} is the most")
+    return bad
 
+
+def form_breaches(header, text, content):
+    """Of one header, with and without its comments."""
+    size = len(text.encode())
+    if size > MAX_BYTES:
+        yield f"{header}: {size} bytes, {MAX_BYTES} is the most; split it into its ideas"
+    if not text.startswith("// SPDX-License-Identifier: MIT\n/// @file\n"):
+        yield f"{header}: does not begin with the SPDX line and '/// @file'"
+    if header != "version.hpp" and "#pragma once" not in content:
+        yield f"{header}: no #pragma once"
+    if BANNED_NAMES.search(header.split("/")[-1]):
+        yield f"{header}: the name says nothing; name the idea"
+    for comment in re.findall(r"(?:^[ \t]*///.*\n)+", text, re.M):
+        card = " ".join(line.strip().removeprefix("///").strip() for line in comment.splitlines())
+        lacking = [part for part in CARD_PARTS if "Concept:" in card and part.lower() not in card.lower()]
+        if lacking:
+            yield f"{header}: the card \"{card[:60]} ...\" lacks {', '.join(lacking)}"
+
+
+def reach_breaches(text, graph):
+    """What the umbrellas bring, and what they do not."""
+    bad = []
     for library, (_, ours, home) in LIBRARIES.items():
         for umbrella in sorted(set(UMBRELLAS) - {home}):
             if ours in reach(graph, umbrella):
@@ -140,6 +156,17 @@ def breaches(root):
     for header in sorted(public - set().union(*(reach(graph, umbrella) for umbrella in UMBRELLAS))):
         bad.append(f"{header}: is in no umbrella")
     return bad
+
+
+def breaches(root):
+    base = root / "include" / "tsubu"
+    text = {str(p.relative_to(base)): p.read_text(encoding="utf-8") for p in sorted(base.rglob("*.hpp"))}
+    code = {h: without_comments(t) for h, t in text.items()}
+    graph = {h: re.findall(r"#\s*include\s*<tsubu/([^>]+)>", c) for h, c in code.items()}
+    if not text:
+        return [f"{base}: no headers there"]
+    return (include_breaches(text, graph) + library_breaches(code) + macro_breaches(code) +
+            [breach for h in text for breach in form_breaches(h, text[h], code[h])] + reach_breaches(text, graph))
 
 
 def list_breaches(root, listed):
@@ -173,6 +200,8 @@ def self_test(root):
         "name": ({"core/string_utils.hpp": head}, "says nothing"),
         "guard": ({"core/planted.hpp": head.replace("#pragma once\n", "")}, "no #pragma once"),
         "licence": ({"core/planted.hpp": "#pragma once\n"}, "SPDX"),
+        "card": ({"core/planted.hpp": head + "/// A policy.\n///\n/// Concept: planted. Cost: O(1). Deterministic: yes. "
+                  "Choose it always.\n"}, "lacks Do not"),
         "umbrella gap": ({"core/planted.hpp": head}, "in no umbrella"),
     }
     missed = 0

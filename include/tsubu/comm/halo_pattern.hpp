@@ -59,6 +59,7 @@ concept halo_pattern = decomposition<Parts> && requires(const Pattern& pattern, 
 /// Concept:      halo_pattern, of any decomposition.
 /// Cost:         a message to and from each rank within the cutoff: up to 26 for bricks larger than it. Ghosts are the
 ///               images within the cutoff, and no others.
+/// Deterministic: yes.
 /// Choose it when work is to go on while ghosts are on their way. Do not when messages are dear, and neighbours many.
 struct direct_pattern {
     template <decomposition Parts>
@@ -101,6 +102,7 @@ template <class Box, std::size_t D, class Scalar, class Border>
 /// Cost:         two messages to and from each rank and axis, or more if the cutoff is longer than a brick, one after
 ///               the other. Ghosts are the images within the cutoff along each axis: at the corners more than
 ///               direct_pattern has.
+/// Deterministic: yes.
 /// Choose it when messages are dear. Do not when there is work to be done while ghosts are on their way: all but those
 ///               of the first step wait for finish.
 /// Source:       Plimpton 1995, "Fast parallel algorithms for short-range molecular dynamics", section 5,

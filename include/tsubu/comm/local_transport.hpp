@@ -124,6 +124,7 @@ private:
 /// Concept:      transport.
 /// Cost:         two meetings of all threads per collective, one more for each 64 numbers after the first ones;
 ///               O(ranks) per rank for an exchange.
+/// Deterministic: yes: what comes is ordered by the rank that sent it.
 /// Choose it when tests are to see many ranks, under sanitizers and in a debugger. Do not for speed.
 class local_transport {
 public:

@@ -75,7 +75,8 @@ private:
 /// Concept:      transport.
 /// Cost:         exchange: a message per parcel, and one reduction that tells when all have come, so that nobody needs
 ///               to know who sends (NBX); channel: persistent requests, started and waited for, nothing else.
-/// Choose it when the program runs under mpirun.
+/// Deterministic: yes, but for the rounding of sums of floating-point numbers, which is the MPI library's.
+/// Choose it when the program runs under mpirun. Do not in tests of exchange logic: local_transport has sanitizers.
 /// Collective:   construction and destruction.
 /// Threads:      one at a time.
 /// Source:       Hoefler, Siebert & Lumsdaine 2010, "Scalable communication protocols for dynamic sparse data

@@ -20,7 +20,8 @@ namespace tsubu {
 ///     tsubu::self_transport on;
 ///     tsubu::migrate(particles, parts, on);
 ///
-/// Concept: transport. Cost: a copy of what is sent.
+/// Concept: transport. Cost: a copy of what is sent. Deterministic: yes.
+/// Choose it when the program runs in one process. Do not when it runs under mpirun: each process would be rank 0 of 1.
 class self_transport {
 public:
     [[nodiscard]] rank_t rank() const noexcept { return 0; }

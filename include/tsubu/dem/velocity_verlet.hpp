@@ -17,6 +17,7 @@ namespace tsubu::dem {
 /// Order: 2, or what the contact allows; 1 with a dashpot. Stable for omega dt < 2 (sqrt(1 + z^2) - z), z the damping
 /// ratio.
 /// Choose it unless a measurement says otherwise: at equal cost nothing is more accurate in collisions.
+/// Do not when damping is strong (implicit_velocity_verlet), or forces are smooth and errors are to be small (pefrl).
 /// Source: Swope, Andersen, Berens & Wilson 1982, doi:10.1063/1.442716.
 struct velocity_verlet {
     static constexpr unsigned force_evaluations = 1;

@@ -30,6 +30,7 @@ concept border_policy = std::semiregular<Border> &&
 ///
 /// Concept:       border_policy, laws 1 to 4 at every scale and for every scalar.
 /// Cost:          two comparisons.
+/// Deterministic: yes, the same on every machine.
 /// Choose it when results of a code that pads its faces need not be reproduced. Do not when they must: padded.
 /// Source:        B2 as decided, B3, B4.
 struct exact {
@@ -52,6 +53,7 @@ static_assert(border_policy<exact, double> && border_policy<exact, lattice<int>>
 ///                double, >= 0.25 in float) nobody owns that face. Law 2: of two or more parts the first two both own
 ///                the cut between them; of a single part nobody owns what lies below. Law 3: so with that cut, inside.
 /// Cost:          two comparisons.
+/// Deterministic: yes.
 /// Choose it when results of a code that pads its faces are to be reproduced. Do not otherwise.
 /// Source:        B2, B3, B4 as printed.
 struct padded {

@@ -38,6 +38,7 @@ namespace tsubu {
 /// Concept:      decomposition; with padded in form only.
 /// Cost:         owner O(D) for equal parts, O(D log ranks) in the worst case; of many points, one comparison per cut
 ///               and point up to 24 cuts; subdomain O(D); neighbors O(ranks) for cutoffs up to the box.
+/// Deterministic: yes, the same on every machine.
 /// Choose it when particles fill the box evenly, or are uneven along one axis. Do not when they are heaped up:
 ///               bisection_decomposition gives each rank equally many.
 /// Source:       B2 to B5 as decided.

@@ -92,6 +92,7 @@ private:
 ///
 /// Concept:      decomposition.
 /// Cost:         one to_cell more than the decomposition of the cell for each point.
+/// Deterministic: as the box and the decomposition of its cell are.
 /// Choose it when the box is not a domain. Do not when it is: the decompositions of its cell take that.
 ///
 /// @tparam Box    triclinic_box, wedge, or another reaching_box.

@@ -44,6 +44,7 @@ namespace tsubu {
 /// Concept:      box.
 /// Cost:         all O(1). to_cell D divisions and D (D - 1) / 2 fused products: each a call, if the instruction
 ///               set has none. minimum_image: D comparisons if the points are near, else up to 27 candidates.
+/// Deterministic: yes, the same on every machine.
 /// Choose it when the box is sheared, or the unit cell of a crystal. Do not when all tilts are 0: domain is exact at
 ///               every scale, and faster.
 /// Source:       LAMMPS manual, "Triclinic (non-orthogonal) simulation boxes"; B1, B3 as decided, in fractions.

@@ -47,6 +47,7 @@ inline constexpr bool rotates_with_images<Field> = Field::rotates_with_images;
 /// Concept:      box.
 /// Cost:         all O(1): an arc tangent and a root for to_cell, two of each for minimum_image, products for an image.
 /// Bytes:        2 n numbers in a table.
+/// Deterministic: on one kind of machine, since arc tangents differ in their last bit.
 /// Choose it when body and load are the same in every sector: a rotor, a shear cell, a vertical drum. Do not when
 ///               gravity is across the axis, as in a horizontal drum: that differs from sector to sector. The arc
 ///               tangent is that of the machine: its last bit, and so the owner of a point on a face, may differ on

@@ -20,6 +20,7 @@ concept bucket_hash = std::semiregular<Hash> && requires(std::uint64_t t, std::u
 ///
 /// Concept:       bucket_hash.
 /// Cost:          one 64-bit division.
+/// Deterministic: yes.
 /// Choose it when results of such a code are to be reproduced.
 /// Do not when    ids may be strided: multiples of B fall into one chain. 16 384 ids k * 32771, for which B is 32771,
 ///                cost 1.3e8 node visits per rebuild.
@@ -37,6 +38,7 @@ static_assert(bucket_hash<mod_prime>);
 ///
 /// Concept:       bucket_hash.
 /// Cost:          three multiplications, no division.
+/// Deterministic: yes.
 /// Choose it when you do not have to reproduce anything.
 /// Do not when    chains are to be those of LIGGGHTS' scheme.
 /// Source:        splitmix64; the multiply-shift reduction of Lemire 2019, doi:10.1145/3230636.

@@ -35,7 +35,9 @@ concept byte_source = requires(const Source& source, std::uint64_t offset, std::
 
 /// A file that is read where it lies.
 ///
-/// Concept: byte_source. Cost of a read: a call of the system. Threads: any number may read.
+/// Concept: byte_source. Cost of a read: a call of the system. Deterministic: yes, while nobody writes the file.
+/// Choose it when what is to be read is a file. Do not when it is in memory: memory_source.
+/// Threads: any number may read.
 class file_source {
 public:
     /// @throws file_error if it cannot be opened; input_error if it is not a file but a folder or a pipe.
@@ -92,7 +94,8 @@ static_assert(byte_source<file_source>);
 
 /// Bytes in memory, which the source does not own: of a message, of a test.
 ///
-/// Concept: byte_source. Cost of a read: a copy.
+/// Concept: byte_source. Cost of a read: a copy. Deterministic: yes.
+/// Choose it when what is to be read is in memory. Do not when it is a file: file_source reads no more than is asked for.
 class memory_source {
 public:
     explicit memory_source(std::span<const std::byte> bytes, std::string name = "memory")

@@ -18,7 +18,9 @@ namespace tsubu {
 /// One record per particle, its fields by falling alignment, so that only its end is padded.
 ///
 /// Concept:  particle_layout.
+/// Cost:     a value O(1); a loop over one field brings all fields through the cache.
 /// Bytes:    the sum of the sizes of the fields, rounded up to the largest alignment.
+/// Deterministic: yes.
 /// Choose it when particles are mostly moved as a whole, sorted or permuted: up to 1.8 times as fast as soa there. Do
 ///           not when loops use some of the fields: soa, in random order too.
 struct aos {

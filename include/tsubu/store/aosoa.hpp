@@ -18,7 +18,9 @@ namespace tsubu {
 /// Blocks of N particles, in each N values of one field after the other.
 ///
 /// Concept:  particle_layout.
+/// Cost:     a value O(1), at the price of an index split in two.
 /// Bytes:    the sum of the sizes of the fields per particle, in whole blocks.
+/// Deterministic: yes.
 /// Choose it when kernels of one's own take vectors of N values of several fields at once (explicit SIMD). Do not
 ///           otherwise: what a compiler makes of loops by index is slower than in soa.
 ///

@@ -26,9 +26,10 @@ concept space_curve = requires(const Curve& curve, const std::array<std::uint32_
 
 /// The bits of the coordinates, one of each in turn, with long jumps at powers of 2.
 ///
-/// Concept: space_curve. Choose it to bring neighbours together in memory: the order takes a third of the time that
-/// hilbert_curve's takes, and looking at neighbours in soa is as fast after it. Do not when stretches of the order are
-/// to be connected pieces of space.
+/// Concept: space_curve. Cost: a few shifts and masks per axis. Deterministic: yes.
+/// Choose it to bring neighbours together in memory: the order takes a third of the time that hilbert_curve's takes, and
+/// looking at neighbours in soa is as fast after it. Do not when stretches of the order are to be connected pieces of
+/// space.
 /// Source: Morton 1966, "A computer oriented geodetic data base".
 struct morton_curve {
     template <std::size_t D>
@@ -43,8 +44,9 @@ static_assert(space_curve<morton_curve>);
 
 /// A curve without jumps: each cell is beside the one before it.
 ///
-/// Concept: space_curve. Choose it when stretches of the order are to be connected pieces of space. Do not when sorting
-/// itself takes the time: morton_curve.
+/// Concept: space_curve. Cost: a step for each bit and axis. Deterministic: yes.
+/// Choose it when stretches of the order are to be connected pieces of space. Do not when sorting itself takes the time:
+/// morton_curve.
 /// Source: Skilling 2004, "Programming the Hilbert curve", doi:10.1063/1.1751381.
 struct hilbert_curve {
     template <std::size_t D>

@@ -46,8 +46,8 @@ concept growth_policy = std::semiregular<Growth> && requires(const Growth& growt
 
 /// Half as much again, in whole blocks: n appends copy fewer than 3 n elements in all.
 ///
-/// Concept: growth_policy. Choose it when particles come and go. Do not when memory must stay within a block of
-/// the need.
+/// Concept: growth_policy. Cost: O(n) for n appends; bytes: up to half as much again. Deterministic: yes.
+/// Choose it when particles come and go. Do not when memory must stay within a block of the need.
 struct geometric_growth {
     [[nodiscard]] constexpr std::uint64_t next(std::uint64_t capacity, std::uint64_t needed) const {
         return round_up((std::max)({needed, capacity + capacity / 2, capacity + 1}));
@@ -57,7 +57,8 @@ static_assert(growth_policy<geometric_growth>);
 
 /// One block more, whatever there is: 1e8 appends copy 3e11 elements.
 ///
-/// Concept: growth_policy. Choose it when LIGGGHTS' memory is to be reproduced (C1). Do not when many are appended.
+/// Concept: growth_policy. Cost: O(n^2) for n appends; bytes: up to a block more. Deterministic: yes.
+/// Choose it when LIGGGHTS' memory is to be reproduced (C1). Do not when many are appended.
 struct block_growth {
     [[nodiscard]] constexpr std::uint64_t next(std::uint64_t capacity, std::uint64_t needed) const {
         return (std::max)(next_block(capacity), round_up(needed));

@@ -9,6 +9,7 @@
 #include <tsubu/store/bonus_of.hpp>
 #include <tsubu/store/column.hpp>
 #include <tsubu/store/concepts.hpp>
+#include <tsubu/store/detail/row_checks.hpp>
 #include <tsubu/store/detail/stored.hpp>
 #include <tsubu/store/field.hpp>
 #include <tsubu/store/growth.hpp>
@@ -27,7 +28,6 @@
 #include <tuple>        // std::tuple
 #include <type_traits>  // std::conditional_t, std::is_trivially_copyable_v
 #include <utility>      // std::exchange, std::index_sequence, std::swap
-#include <vector>       // std::vector
 
 namespace tsubu {
 
@@ -163,7 +163,7 @@ public:
 
     /// Room for n particles, owned and ghost, in whole blocks. Strong guarantee. @throws limit_error from 2^31 on.
     void reserve(std::size_t n) {
-        if (n > max_index_count) refuse_count(n);
+        if (n > max_index_count) detail::refuse_count(n, size_);
         if (n > capacity()) reallocate(round_up(n));
     }
     /// A new owned particle, with the values given and zeros for the others; its index.
@@ -190,7 +190,7 @@ public:
     template <auto... Unset>
     std::size_t add_owned(std::size_t count, fields<Unset...> unset) {
         static_assert((has<decltype(Unset)> && ...), "the store lacks a field that is to be left unset");
-        refuse_ghosts("particle_store::add_owned");
+        detail::refuse_ghosts("particle_store::add_owned", ghost_count());
         const auto first = add(count, unset);
         owned_ = size_;
         return first;
@@ -214,7 +214,7 @@ public:
     /// Removes an owned particle; the last one moves into its place.
     /// @throws input_error if there are ghosts, or no such particle.
     void swap_remove(std::size_t i) {
-        refuse_ghosts("particle_store::swap_remove");
+        detail::refuse_ghosts("particle_store::swap_remove", ghost_count());
         if (i >= owned_)
             detail::raise<input_error>("particle_store::swap_remove",
                                        "index " + std::to_string(i) + " of " + std::to_string(owned_) +
@@ -235,13 +235,8 @@ public:
     /// @throws input_error, and removes nothing, if there are ghosts, or `gone` is not as said.
     /// Complexity: O(gone).
     void remove(std::span<const index_t> gone) {
-        refuse_ghosts("particle_store::remove");
-        for (std::size_t k = 0; k < gone.size(); ++k)
-            if (gone[k] < 0 || static_cast<std::size_t>(gone[k]) >= owned_ || (k != 0 && gone[k - 1] >= gone[k]))
-                detail::raise<input_error>("particle_store::remove",
-                                           "index " + std::to_string(gone[k]) + " at place " + std::to_string(k) +
-                                               ", of " + std::to_string(owned_) + " owned particles",
-                                           "give indices from 0 to owned_count() - 1 in ascending order, each once");
+        detail::refuse_ghosts("particle_store::remove", ghost_count());
+        detail::check_ascending("particle_store::remove", gone, owned_);
         const auto kept = owned_ - gone.size();
         auto among_last = std::lower_bound(gone.begin(), gone.end(), kept, [](index_t i, std::size_t n) {
             return static_cast<std::size_t>(i) < n;
@@ -262,13 +257,9 @@ public:
     /// Particle i becomes particle order[i] of before, for all owned ones; one pass over each field.
     /// @throws input_error if there are ghosts, or the lengths differ. Precondition: order is a permutation.
     void permute(std::span<const index_t> order) {
-        refuse_ghosts("particle_store::permute");
-        if (order.size() != owned_)
-            detail::raise<input_error>("particle_store::permute",
-                                       "an order of " + std::to_string(order.size()) + " for " +
-                                           std::to_string(owned_) + " owned particles",
-                                       "give each index once");
-        TSUBU_EXPECTS(is_permutation(order), "this is not a permutation; give each index once");
+        detail::refuse_ghosts("particle_store::permute", ghost_count());
+        detail::check_order_length("particle_store::permute", order.size(), owned_);
+        TSUBU_EXPECTS(detail::is_permutation(order), "this is not a permutation; give each index once");
         ++revision_;
         memory_.gather(order.data(), owned_);
         if (allocation_ != nullptr) ++*allocation_;
@@ -322,19 +313,9 @@ private:
             return column<std::conditional_t<is_const, const value_type, value_type>, decltype(place)>(
                 place, self.size_, until);
     }
-    void refuse_ghosts(const char* where) const {
-        if (ghost_count() != 0)
-            detail::raise<input_error>(where, std::to_string(ghost_count()) + " ghosts stand after the owned particles",
-                                       "call clear_ghosts() before owned particles come, go or change places");
-    }
-    [[noreturn]] void refuse_count(std::size_t count) const {
-        detail::raise<limit_error>("particle_store",
-                                   std::to_string(count) + " particles where " + std::to_string(size_) + " are",
-                                   "spread them over more ranks: one holds fewer than 2^31");
-    }
     template <auto... Unset>
     std::size_t add(std::size_t count, fields<Unset...>) {
-        if (count > max_index_count - size_) refuse_count(count);
+        if (count > max_index_count - size_) detail::refuse_count(count, size_);
         const auto needed = size_ + count;
         compact_if_due();  // ghosts that come and go with lists leave garbage
         if (needed > capacity()) reallocate(growth_.next(capacity(), needed));
@@ -478,14 +459,6 @@ private:
             compact();
         } catch (const std::bad_alloc&) {
         }
-    }
-    [[nodiscard]] static bool is_permutation(std::span<const index_t> order) {
-        std::vector<bool> seen(order.size());
-        for (const auto i : order) {
-            if (i < 0 || static_cast<std::size_t>(i) >= order.size() || seen[static_cast<std::size_t>(i)]) return false;
-            seen[static_cast<std::size_t>(i)] = true;
-        }
-        return true;
     }
     template <class Body>
     static void each_value(Body&& body) {

@@ -19,13 +19,18 @@ need_benchmark() { # compiler
         has_header benchmark/benchmark.h "$1"
 }
 has_mpi() { have mpicxx && have mpiexec; }
-need_mpi() {
-    need "an MPI library" libopenmpi-dev "https://www.open-mpi.org, or MPICH" have mpicxx
-    need "mpiexec" openmpi-bin "comes with the MPI library" have mpiexec
+ask_for_mpi() { # need or want
+    "$1" "an MPI library" libopenmpi-dev "https://www.open-mpi.org, or MPICH" have mpicxx
+    "$1" "mpiexec" openmpi-bin "comes with the MPI library" have mpiexec
 }
 # In the first python in PATH, or in that of the system, where packages put it: whatever imports it looks into both.
 has_module() { # module of Python
     python3 -c "import $1" || /usr/bin/python3 -c "import $1"
+}
+ask_for_matplotlib() { # need or want
+    # munkres: without it Debian 12 takes SciPy, whose Boost is in the way of a newer one.
+    "$1" "matplotlib for Python 3" "python3-munkres+python3-matplotlib|python3-matplotlib" "pip install matplotlib" \
+        has_module matplotlib
 }
 
 # As cmake/mpi_test.cmake has it: only Open MPI's launcher knows these two options, and needs them in containers.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Sourced by tests/run, bench/run and bench/scene: what is missing on this machine, and how it gets there.
 #
-#   need "what it is" "Debian packages, best first, separated by |" "remedy elsewhere" command...
+#   need "what it is" "Debian packages, best first, separated by |; a+b: both" "remedy elsewhere" command...
 #       notes the thing as missing unless the command succeeds
 #   want ...
 #       likewise, for what can be done without
@@ -66,11 +66,12 @@ check_compiler() { # one that the user has named: is here, or may be installed
     have "$1" || comes_in_a_package "$1" || die 2 "no such compiler: $1"
 }
 on_debian() { have apt-get && [ -r /etc/debian_version ]; }
-first_available() { # a|b|c -> the first that apt knows; nothing if it knows none
-    local package
-    for package in ${1//|/ }; do
-        if apt-cache show "$package" >/dev/null 2>&1; then
-            printf '%s' "$package"
+first_available() { # a|b+c|d -> the first that apt knows, b c if it is the second; nothing if it knows none
+    local packages
+    for packages in ${1//|/ }; do
+        # shellcheck disable=SC2086 # several words
+        if apt-cache show ${packages//+/ } >/dev/null 2>&1; then
+            printf '%s' "${packages//+/ }"
             return
         fi
     done
@@ -89,25 +90,32 @@ say_missing() {
     for entry in "${missing[@]}"; do
         IFS=$'\t' read -r what packages remedy necessity <<<"$entry"
         [ "$necessity" = needed ] || necessity="what uses it is left out without"
-        say "  - $what: $remedy (Debian, Ubuntu: ${packages//|/ or }; $necessity)"
+        say "  - $what: $remedy (Debian, Ubuntu: $(sed "s/|/ or /g; s/+/ and /g" <<<"$packages"); $necessity)"
     done
 }
 give_up_if_needed() { # why: exits if something needed is missing; else goes on without the rest
     [ "$(count_missing needed)" = 0 ] || die 3 "$1"
+}
+install_with_apt() { # packages; nothing that is there is removed for them, even if it is in their way
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends --no-remove "$@" \
+        </dev/null >/dev/null
 }
 install_packages() { # needed or wanted
     local entry what packages remedy necessity package chosen=()
     for entry in "${missing[@]}"; do
         IFS=$'\t' read -r what packages remedy necessity <<<"$entry"
         [ "$necessity" = "$1" ] || continue
-        package=$(first_available "$packages")
-        [ -n "$package" ] || continue # apt does not know it; what another package brings may do
-        case " ${chosen[*]-} " in *" $package "*) ;; *) chosen+=("$package") ;; esac
+        # Where apt knows none, what another package brings may do.
+        for package in $(first_available "$packages"); do
+            case " ${chosen[*]-} " in *" $package "*) ;; *) chosen+=("$package") ;; esac
+        done
     done
     [ ${#chosen[@]} -gt 0 ] || return 0
     say "$program: installing with apt-get, which takes some minutes: ${chosen[*]}"
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${chosen[@]}" \
-        </dev/null >/dev/null || say "$program: apt-get could not install: ${chosen[*]}"
+    install_with_apt "${chosen[@]}" && return
+    for package in "${chosen[@]}"; do # one that cannot come is not to keep the others away
+        install_with_apt "$package" || say "$program: apt-get could not install $package, without removing others"
+    done
 }
 
 provide() { # the function that calls need and want for everything

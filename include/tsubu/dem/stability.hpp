@@ -100,102 +100,125 @@ struct particle_modes {
     form<N> damping;
 };
 
+/// The modes of some owned particles, that stand one after the other.
+template <class Run>
+class modes_of_some {
+    using simulation = typename Run::simulation_type;
+    static constexpr auto D = simulation::dimension;
+    static constexpr std::size_t spins = simulation::turns ? spin_count<D> : 0;
+    using velocity = vec<D, double>;
+    using spin_vector = vec<spins, double>;
+
+public:
+    using modes = particle_modes<D + spins>;
+
+    explicit modes_of_some(const Run& of) : of_(of) {}
+
+    /// Of `count` particles from `first` on.
+    [[nodiscard]] std::span<const modes> of(std::size_t first, std::size_t count) {
+        first_ = first;
+        modes_.assign(count, {});
+        if constexpr (simulation::has_contacts)
+            of_.each_contact([&](const contact_pair<D>& pair) { add_contact(pair); });
+        of_.each_spring([&](index_t i, index_t j, const spring& one) { add_spring(i, j, one); });
+        return modes_;
+    }
+
+private:
+    /// Neither of a later turn nor a ghost, which its owner sees to.
+    [[nodiscard]] bool has(index_t i) const noexcept {
+        return static_cast<std::size_t>(i) - first_ < modes_.size() && static_cast<std::size_t>(i) >= first_;
+    }
+    /// Adds k and c along the direction `v` of the velocity and `w` of the spin.
+    void add(index_t i, double k, double c, const velocity& v, const spin_vector& w) {
+        const double mass = of_.mass(i);
+        if (!(mass <= (std::numeric_limits<double>::max)())) return;  // it does not move
+        const double per_root = 1 / std::sqrt(mass);
+        vec<D + spins, double> g{};
+        for (std::size_t a = 0; a < D; ++a) g[a] = v[a] * per_root;
+        for (std::size_t a = 0; a < spins; ++a)
+            g[D + a] = w[a] * per_root / (std::sqrt(sphere_inertia) * of_.radius(i));
+        auto& at = modes_[static_cast<std::size_t>(i) - first_];
+        if (k != 0) at.stiffness.add(2 * k, g);
+        if (c != 0) at.damping.add(2 * c, g);
+    }
+    /// Of both sides of a contact; spin(i, side) is the direction of the spin.
+    template <class Spin>
+    void add_both(const contact_pair<D>& pair, double k, double c, const velocity& v, const Spin& spin) {
+        if (has(pair.i)) add(pair.i, k, c, v, spin(pair.i, 1.0));
+        if (!pair.is_wall && has(pair.j)) add(pair.j, k, c, v, spin(pair.j, -1.0));
+    }
+    void add_contact(const contact_pair<D>& pair) {
+        if (!has(pair.i) && (pair.is_wall || !has(pair.j))) return;
+        const auto& law = of_.template model<typename simulation::contact_type>();
+        const auto& at = pair.at;
+        const double share = pair.is_wall ? 0.5 : 1;
+        const double k = law.normal().stiffness(at.overlap, at.radius);
+        const double c = law.normal().damping(at.overlap, at.mass, at.radius);
+        add_both(pair, share * k, share * c, at.normal, [](index_t, double) { return spin_vector{}; });
+        if constexpr (simulation::turns) add_friction(pair, law, share, k, c);
+    }
+    template <class Law>
+    void add_friction(const contact_pair<D>& pair, const Law& law, double share, double k, double c) {
+        const auto& at = pair.at;
+        double k_t = 0;
+        if constexpr (sticking_law<typename Law::tangential_type>)
+            k_t = law.tangential().stiffness(at.overlap, at.radius);
+        const double c_t = law.tangential().viscosity(at.mass, c);
+        for (std::size_t a = 0; a < D; ++a) {
+            // Along axis a: e_a (v_t - R w x n), of j with the normal that points to it.
+            const auto spin = [&](index_t i, double side) {
+                spin_vector w{};
+                for (std::size_t b = 0; b < spins; ++b)
+                    w[b] = -side * of_.radius(i) * spin_across(unit<spins>(b), at.normal)[a];
+                return w;
+            };
+            add_both(pair, share * k_t, share * c_t, tangential<D, double>(unit<D>(a), at.normal), spin);
+        }
+        if constexpr (Law::rolling_type::resists) {
+            const double k_r = law.rolling().stiffness(k, at.radius);
+            const double c_r = law.rolling().viscosity(k, at.mass, at.radius);
+            for (std::size_t a = 0; a < spins; ++a)
+                add_both(pair, share * k_r, share * c_r, {}, [&](index_t, double) {
+                    if constexpr (D == 3)
+                        return tangential<3, double>(unit<spins>(a), at.normal);
+                    else
+                        return unit<spins>(a);
+                });
+        }
+    }
+    void add_spring(index_t i, index_t j, const spring& one) {
+        if (!has(i)) return;
+        auto n = of_.apart(i, j);
+        double square = 0;
+        for (const double d : n) square += d * d;
+        const double distance = std::sqrt(square);
+        for (double& d : n) d /= distance;
+        add(i, one.k, 0, n, {});
+        // Stretched, it is stiff across too, as a string is.
+        const double across = one.k * (std::max)(0.0, 1 - one.length / distance);
+        for (std::size_t a = 0; a < D && across > 0; ++a) add(i, across, 0, tangential<D, double>(unit<D>(a), n), {});
+    }
+    template <std::size_t N>
+    static vec<N, double> unit(std::size_t a) noexcept {
+        vec<N, double> one{};
+        one[a] = 1;
+        return one;
+    }
+
+    const Run& of_;
+    std::size_t first_ = 0;
+    std::vector<modes> modes_;
+};
+
 /// body(particle_modes) for each owned particle.
 template <class Run, class Body>
 void each_mode(const Run& of, Body&& body) {
-    using simulation = typename Run::simulation_type;
-    constexpr auto D = simulation::dimension;
-    constexpr std::size_t spins = simulation::turns ? spin_count<D> : 0;
-    constexpr std::size_t N = D + spins;
-    using spin_vector = vec<spins, double>;
     constexpr std::size_t at_once = 65536;  // particles: their forms take 10 to 40 MB
     const auto owned = of.particles().owned_count();
-    std::vector<particle_modes<N>> some;
-    for (std::size_t first = 0; first < owned; first += at_once) {
-        some.assign((std::min)(at_once, owned - first), {});
-        const auto mine = [&](index_t i) {  // neither of a later turn nor a ghost, which its owner sees to
-            return static_cast<std::size_t>(i) - first < some.size() && static_cast<std::size_t>(i) >= first;
-        };
-        // Adds k and c along the direction `v` of the velocity and `w` of the spin.
-        const auto add = [&](index_t i, double k, double c, const vec<D, double>& v, const spin_vector& w) {
-            const double mass = of.mass(i);
-            if (!(mass <= (std::numeric_limits<double>::max)())) return;  // it does not move
-            const double per_root = 1 / std::sqrt(mass);
-            vec<N, double> g{};
-            for (std::size_t a = 0; a < D; ++a) g[a] = v[a] * per_root;
-            for (std::size_t a = 0; a < spins; ++a) g[D + a] = w[a] * per_root / (std::sqrt(sphere_inertia) * of.radius(i));
-            auto& at = some[static_cast<std::size_t>(i) - first];
-            if (k != 0) at.stiffness.add(2 * k, g);
-            if (c != 0) at.damping.add(2 * c, g);
-        };
-        if constexpr (simulation::has_contacts) {
-            using law_type = typename simulation::contact_type;
-            const auto& law = of.template model<law_type>();
-            of.each_contact([&](const contact_pair<D>& pair) {
-                const bool has_j = !pair.is_wall && mine(pair.j);
-                if (!mine(pair.i) && !has_j) return;
-                const auto& at = pair.at;
-                const double share = pair.is_wall ? 0.5 : 1;
-                const double k = share * law.normal().stiffness(at.overlap, at.radius);
-                const double c = share * law.normal().damping(at.overlap, at.mass, at.radius);
-                const auto both = [&](double stiffness, double damping, const auto& v, const auto& w) {
-                    if (mine(pair.i)) add(pair.i, stiffness, damping, v, w(pair.i, 1.0));
-                    if (has_j) add(pair.j, stiffness, damping, v, w(pair.j, -1.0));
-                };
-                const auto no_spin = [](index_t, double) { return spin_vector{}; };
-                both(k, c, at.normal, no_spin);
-                if constexpr (simulation::turns) {
-                    double k_t = 0;
-                    if constexpr (sticking_law<typename law_type::tangential_type>)
-                        k_t = share * law.tangential().stiffness(at.overlap, at.radius);
-                    const double c_t = share * law.tangential().viscosity(at.mass, c / share);
-                    for (std::size_t a = 0; a < D; ++a) {
-                        // Along axis a: e_a (v_t - R w x n), of j with the normal that points to it.
-                        vec<D, double> along{};
-                        along[a] = 1;
-                        const auto v = tangential<D, double>(along, at.normal);
-                        both(k_t, c_t, v, [&](index_t i, double side) {
-                            spin_vector w{};
-                            for (std::size_t b = 0; b < spins; ++b) {
-                                spin_vector one{};
-                                one[b] = 1;
-                                w[b] = -side * of.radius(i) * spin_across(one, at.normal)[a];
-                            }
-                            return w;
-                        });
-                    }
-                    if constexpr (law_type::rolling_type::resists) {
-                        const double k_r = share * law.rolling().stiffness(k / share, at.radius);
-                        const double c_r = share * law.rolling().viscosity(k / share, at.mass, at.radius);
-                        for (std::size_t a = 0; a < spins; ++a)
-                            both(k_r, c_r, vec<D, double>{}, [&](index_t, double) {
-                                spin_vector w{};
-                                w[a] = 1;
-                                if constexpr (D == 3) w = tangential<3, double>(w, at.normal);
-                                return w;
-                            });
-                    }
-                }
-            });
-        }
-        of.each_spring([&](index_t i, index_t j, const spring& one) {
-            if (!mine(i)) return;
-            auto n = of.apart(i, j);
-            double square = 0;
-            for (const double d : n) square += d * d;
-            const double distance = std::sqrt(square);
-            for (double& d : n) d /= distance;
-            add(i, one.k, 0, n, {});
-            // Stretched, it is stiff across too, as a string is.
-            const double across = one.k * (std::max)(0.0, 1 - one.length / distance);
-            for (std::size_t a = 0; a < D && across > 0; ++a) {
-                vec<D, double> along{};
-                along[a] = 1;
-                add(i, across, 0, tangential<D, double>(along, n), {});
-            }
-        });
-        for (const auto& one : some) body(one);
-    }
+    modes_of_some<Run> some(of);
+    for (std::size_t first = 0; first < owned; first += at_once)
+        for (const auto& one : some.of(first, (std::min)(at_once, owned - first))) body(one);
 }
 
 /// The longest stable time step of what touches on this rank [s]; infinite if nothing does.

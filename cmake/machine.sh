@@ -29,7 +29,7 @@ has_module() { # module of Python
 }
 ask_for_matplotlib() { # need or want
     # munkres: without it Debian 12 takes SciPy, whose Boost is in the way of a newer one.
-    "$1" "matplotlib for Python 3" "python3-munkres+python3-matplotlib|python3-matplotlib" "pip install matplotlib" \
+    "$1" "matplotlib for Python 3" python3-munkres+python3-matplotlib "pip install matplotlib" \
         has_module matplotlib
 }
 

@@ -89,13 +89,17 @@ class Run(unittest.TestCase):
         with self.start(does, *options) as run:
             return run.communicate(timeout=60)[0], run.wait()
 
-    def stop_by(self, number):
+    def await_start_of(self, run):
+        """Until the program of a room has started another; whose number."""
         started = self.folder / "started"
+        deadline = time.monotonic() + 60
+        while not started.exists() and run.poll() is None and time.monotonic() < deadline:
+            time.sleep(.01)
+        return int(started.read_text(encoding="utf-8"))
+
+    def stop_by(self, number):
         with self.start("starts another, and waits") as run:
-            deadline = time.monotonic() + 60
-            while not started.exists() and run.poll() is None and time.monotonic() < deadline:
-                time.sleep(.01)
-            pid = int(started.read_text(encoding="utf-8"))
+            pid = self.await_start_of(run)
             self.assertTrue(is_alive(pid))
             run.send_signal(number)
             said = run.communicate(timeout=60)[0]
@@ -132,6 +136,20 @@ class Run(unittest.TestCase):
             self.assertEqual(result, 1, said)
             self.assertIn(f"the room id_map failed with code {code}", said)
             self.assertNotIn("--resume and the same options", said)
+
+    def test_a_second_run_leaves_the_first_alone(self):
+        with self.start("starts another, and waits") as run:
+            self.await_start_of(run)
+            said, result = self.run_to_its_end("finishes")
+            self.assertEqual(result, 1, said)
+            self.assertIn(f"process {run.pid} measures into {self.out.relative_to(self.folder)} already", said)
+            self.assertTrue((self.out / "unfinished/id_map.json").exists())
+            run.send_signal(signal.SIGTERM)
+            run.communicate(timeout=60)
+        self.assertFalse((self.out / "running").exists())
+        (self.out / "running").write_text("999999999", encoding="utf-8")  # of one that was killed
+        said, result = self.run_to_its_end("finishes", "--resume")
+        self.assertEqual(result, 0, said)
 
     def test_a_part_of_a_room_does_not_replace_it(self):
         self.run_to_its_end("finishes")

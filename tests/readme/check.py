@@ -8,6 +8,8 @@
     python3 tests/readme/check.py             says what differs; exit code 1 if anything does
     python3 tests/readme/check.py --write     writes it anew
 """
+import gzip
+import json
 import os
 import pathlib
 import re
@@ -60,6 +62,15 @@ def faults_outside(text, shown):
             yield f"{name} is not shown in the README"
 
 
+def dirty_runs():
+    """Stored runs that no commit can repeat."""
+    for path in sorted((ROOT / "bench/results").glob("*.json.gz")):
+        with gzip.open(path, "rt", encoding="utf-8") as file:
+            commit = json.load(file)["context"]["commit"]
+        if commit.endswith("-dirty"):
+            yield f"{path.relative_to(ROOT)} was measured with changes that no commit holds: {commit}"
+
+
 def main():
     write = sys.argv[1:] == ["--write"]
     if sys.argv[1:] and not write:
@@ -93,6 +104,7 @@ def main():
 
     new_text = PRINTED.sub(renew_printed, FENCE.sub(renew_fence, text))
     faults += faults_outside(text, shown)
+    faults += dirty_runs()
     if write and new_text != text:
         README.write_text(new_text, encoding="utf-8")
     for fault in faults:

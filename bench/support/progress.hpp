@@ -5,11 +5,10 @@
 
 #include <unistd.h>  // isatty
 
-#include <algorithm>  // std::clamp
-#include <chrono>     // std::chrono::steady_clock
-#include <cstddef>    // std::size_t
-#include <cstdio>     // std::fflush, std::fprintf, std::snprintf
-#include <string>     // std::string
+#include <chrono>   // std::chrono::steady_clock
+#include <cstddef>  // std::size_t
+#include <cstdio>   // std::fflush, std::fprintf, std::snprintf
+#include <string>   // std::string
 
 namespace bench {
 
@@ -20,10 +19,11 @@ struct whole_run {
     double later = 0;  ///< what is planned for the programs after
 };
 
-/// What is left is what was planned, by how the time taken so far compares with the plan.
+/// What is left is what was planned, by how the time taken so far compares with the plan, of which a minute is believed
+/// from the beginning: the first groups are short, and tell little of the others.
 [[nodiscard]] inline double seconds_left(const whole_run& whole, double planned, double done, double took) noexcept {
-    const double before = whole.done + done;
-    const double pace = before > 0 ? std::clamp((whole.took + took) / before, 0.1, 20.0) : 1;
+    const double believed = 60;
+    const double pace = (believed + whole.took + took) / (believed + whole.done + done);
     return pace * (planned - done + whole.later);
 }
 

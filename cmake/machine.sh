@@ -5,6 +5,7 @@
 absolute() { # a path as the user gave it, from where the program was started
     case $1 in /*) printf '%s' "$1" ;; *) printf '%s/%s' "$start" "$1" ;; esac
 }
+compiler_named() { case $1 in */*) absolute "$1" ;; *) printf '%s' "$1" ;; esac; } # a name, or a path
 default_compiler() { if have g++ || ! have clang++; then printf g++; else printf clang++; fi; }
 
 need_build_tools() {

@@ -103,7 +103,7 @@ void beside(row_reporter& report, const std::string& name, const Scene& scene, c
                                   }};
     const timed_contender theirs = {
         "dem/beside/" + name + "/lammps/double", units, [=](row_fields& fields) {
-            const auto said = answer_of("python3 " TSUBU_BENCH_SOURCE "/rivals/lammps/measure.py " + rival_scene +
+            const auto said = answer_of("python3 '" TSUBU_BENCH_SOURCE "/rivals/lammps/measure.py' " + rival_scene +
                                         " --warmup " + std::to_string(warmup) + " --steps " + std::to_string(steps));
             energies->second = number_in(said, "ke");
             fields.emplace_back("bytes", number_in(said, "bytes_per_particle"));
@@ -127,7 +127,7 @@ template <class Law>
 auto in_bed(const Law& law, const char* rival, std::size_t warmup, std::size_t steps) {
     return [=](row_reporter& report, const std::string& name, std::size_t rounds) {
         static_cast<void>(settled_bed());  // so that its file is there
-        beside(report, name, bed_scene<Law, velocity_verlet>{.law = law}, std::string(rival) + " --data " + bed_file(),
+        beside(report, name, bed_scene<Law, velocity_verlet>{.law = law}, std::string(rival) + " --data '" + bed_file() + "'",
                warmup, steps, rounds);
     };
 }
@@ -169,8 +169,8 @@ void ranks(row_reporter& report, const std::string& launcher, std::size_t rounds
                                return number_in(answer_of(launcher + " -n " + count + " " + program), "seconds");
                            }});
     };
-    add("settle_1e5", 800, TSUBU_BENCH_SCENE " settle --size 100000 --steps 800 --timing");
-    add("bed_1e5", 200, TSUBU_BENCH_TILED_BED " " + bed_file() + " 200");
+    add("settle_1e5", 800, "'" TSUBU_BENCH_SCENE "' settle --size 100000 --steps 800 --timing");
+    add("bed_1e5", 200, "'" TSUBU_BENCH_TILED_BED "' '" + bed_file() + "' 200");
     take_turns(report, all, rounds, false);
 }
 

@@ -5,13 +5,16 @@
 
 #include "id_set.hpp"
 
-#include <cctype>     // std::isalpha
-#include <cstddef>    // std::size_t
-#include <fstream>    // std::ifstream
-#include <sstream>    // std::istringstream
-#include <stdexcept>  // std::runtime_error
-#include <string>     // std::string
-#include <vector>     // std::vector
+#include <algorithm>     // std::adjacent_find, std::sort
+#include <cctype>        // std::isalpha
+#include <charconv>      // std::from_chars
+#include <cstddef>       // std::size_t
+#include <fstream>       // std::ifstream
+#include <sstream>       // std::istringstream
+#include <stdexcept>     // std::runtime_error
+#include <string>        // std::string
+#include <system_error>  // std::errc
+#include <vector>        // std::vector
 
 namespace bench {
 
@@ -24,6 +27,16 @@ namespace bench {
     throw std::runtime_error(path + ": \"ITEM: ATOMS\" has no column \"id\"; write the dump with one");
 }
 
+/// @throws std::runtime_error if it is no id.
+[[nodiscard]] inline id_t id_in(const std::string& word, const std::string& path, std::size_t line) {
+    id_t id = 0;
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), id);
+    if (fault != std::errc{} || end != word.data() + word.size() || id < 0)
+        throw std::runtime_error(path + ":" + std::to_string(line) + ": \"" + word +
+                                 "\" is no id; ids are whole numbers from 0 to 2^63 - 1");
+    return id;
+}
+
 [[nodiscard]] inline std::vector<id_t> read_lammps_ids(const std::string& path) {
     std::ifstream file(path);
     if (!file) throw std::runtime_error(path + ": cannot be read; name a LAMMPS data or dump file");
@@ -31,11 +44,14 @@ namespace bench {
     int column = -1;  // >= 0 inside the section
     bool dump = false;
     std::string line;
+    std::size_t number = 0;
     while (std::getline(file, line)) {
+        ++number;
         const auto begin = line.find_first_not_of(" \t\r");
         const bool item = line.compare(0, 5, "ITEM:") == 0;
         const bool heading = begin != std::string::npos && std::isalpha(static_cast<unsigned char>(line[begin])) != 0;
         if (column >= 0 && (item || (heading && !dump))) break;  // the next snapshot, or the next section
+        if (number == 1 && !item) continue;                      // the title of a data file, whatever it says
         if (column < 0 && heading) {
             dump = line.compare(0, 11, "ITEM: ATOMS") == 0;
             if (dump) column = dump_id_column(line, path);
@@ -44,15 +60,20 @@ namespace bench {
         }
         if (column < 0 || begin == std::string::npos) continue;
         std::istringstream words(line);
-        std::string skipped;
-        id_t id = 0;
-        for (int k = 0; k < column; ++k) words >> skipped;
-        if (words >> id) ids.push_back(id);
+        std::string word;
+        for (int k = 0; k <= column; ++k) words >> word;
+        ids.push_back(id_in(word, path, number));
     }
     if (ids.size() < 100)
         throw std::runtime_error(path + ": " + std::to_string(ids.size()) +
                                  " ids found; name a LAMMPS data file with a section Atoms, or a dump file in text "
                                  "form, of at least 100 particles");
+    auto sorted = ids;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+        throw std::runtime_error(path + ": id " + std::to_string(*twice) +
+                                 " is there twice; give each particle its own");
     return ids;
 }
 

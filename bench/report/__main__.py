@@ -123,6 +123,10 @@ def main(description):
     except (Refusal, OSError) as fault:
         print(f"report.py: {fault}", file=sys.stderr)
         return 1
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as fault:
+        print(f"report.py: figures that cannot be drawn, maybe since rows are missing: {type(fault).__name__}: {fault}; "
+              "measure the room anew, or leave its file out", file=sys.stderr)
+        return 1
     return 0
 
 

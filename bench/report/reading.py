@@ -3,6 +3,7 @@
 import glob
 import gzip
 import json
+import math
 import os
 import zlib
 
@@ -43,19 +44,32 @@ def files_of(path):
     return found
 
 
+def check_row(where, row):
+    if not isinstance(row, dict) or not isinstance(row.get("name"), str):
+        raise Refusal(f"{where} has no name")
+    for key in ("items_per_second", "bytes_per_second"):
+        value = row.get(key, 1)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < math.inf:
+            raise Refusal(f"{where}, {row['name']}: {key} is {value}, not a number above 0")
+
+
 def contents_of(path):
     """(context, rows), without the marks at the ends of groups."""
     opened = gzip.open(path, "rt", encoding="utf-8") if path.endswith(".gz") else open(path, encoding="utf-8")
     try:
         with opened as file:
             content = json.load(file)
-    except (ValueError, EOFError, zlib.error) as fault:  # the latter two of a .gz that is cut short
+    except (ValueError, EOFError, RecursionError, gzip.BadGzipFile, zlib.error) as fault:  # the latter two of a .gz that is cut short
         raise Refusal(f"{path}: not the JSON of a run ({fault})") from fault
-    context = content.get("context", {}) if isinstance(content, dict) else {}
+    context = content.get("context") if isinstance(content, dict) else None
+    if not isinstance(context, dict):
+        raise Refusal(f"{path}: no context in it, which says where the figures are from")
     missing = [key for key in REQUIRED_CONTEXT if not context.get(key)]
     if missing:
         raise Refusal(f"{path}: the context lacks {', '.join(missing)}: figures without it are worth nothing; run a "
                       "program of bench/, not Google Benchmark alone")
     if not isinstance(content.get("benchmarks"), list):
         raise Refusal(f"{path}: no list of benchmarks in it, which is where the figures of a run stand")
+    for number, row in enumerate(content["benchmarks"], 1):
+        check_row(f"{path}: row {number}", row)
     return context, [row for row in content["benchmarks"] if "group_seconds" not in row]

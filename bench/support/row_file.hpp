@@ -139,6 +139,10 @@ private:
             const auto begin = line.find("\"name\": \"") + 9;
             finished_.push_back(line.substr(begin, line.find('"', begin) - begin));
         }
+        for (const auto& [key, value] : conditions)
+            if (std::find(seen_.begin(), seen_.end(), key) == seen_.end() && (!may_differ(key) || key == "date"))
+                others += (others.empty() ? "" : ", ") + key + " is missing";
+        if (begun_.empty()) others += (others.empty() ? "" : ", ") + std::string("the date cannot be read");
         if (!finished_.empty() && !others.empty())
             throw std::runtime_error(path_ + ": cannot go on, since this is not the run that was stopped: " + others +
                                      "; begin anew without --resume");
@@ -150,7 +154,8 @@ private:
             if (!line.starts_with(begin)) continue;
             auto was = line.substr(begin.size());
             if (was.ends_with(',')) was.pop_back();
-            if (key == "date") begun_ = was.substr(1, was.size() - 2);
+            if (key == "date" && was.size() > 2) begun_ = was.substr(1, was.size() - 2);
+            seen_.push_back(key);
             if (may_differ(key) || was == quoted(value)) continue;
             others += (others.empty() ? "" : ", ") + key + " was " + was + " and is " + quoted(value);
         }
@@ -162,6 +167,7 @@ private:
     bool is_first_ = true;
     std::string begun_;
     std::vector<std::string> finished_;
+    std::vector<std::string> seen_;  // conditions that the file has
 };
 
 }  // namespace bench

@@ -8,5 +8,5 @@ set(TSUBU_BUILD_BENCH ON CACHE BOOL "")
 find_program(TSUBU_BENCH_MPICXX mpicxx)
 find_program(TSUBU_BENCH_MPIEXEC mpiexec)
 if(TSUBU_BENCH_MPICXX AND TSUBU_BENCH_MPIEXEC)
-    set(TSUBU_WITH_MPI ON CACHE BOOL "")
+    set(TSUBU_WITH_MPI ON CACHE BOOL "" FORCE) # MPI may have come since this folder was first configured
 endif()

@@ -142,7 +142,7 @@ class Run(unittest.TestCase):
             self.await_start_of(run)
             said, result = self.run_to_its_end("finishes")
             self.assertEqual(result, 1, said)
-            self.assertIn(f"process {run.pid} measures into {self.out.relative_to(self.folder)} already", said)
+            self.assertIn(f"process {run.pid} works in {self.out.relative_to(self.folder)} already", said)
             self.assertTrue((self.out / "unfinished/id_map.json").exists())
             run.send_signal(signal.SIGTERM)
             run.communicate(timeout=60)

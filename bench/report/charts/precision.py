@@ -102,8 +102,9 @@ def scene_panel(results, scene, pyplot):
     axes.set(xscale="log", yscale="log")
     axes.set_xlabel("µs of a core per simulated second and particle", fontsize=9, labelpad=1)
     axes.set_ylabel(f"error of the {scene.what}", fontsize=9, labelpad=1)
-    low = min(e for _, e in every)
-    axes.set_ylim(low / 3, min(10, max(e for _, e in every)) * 2)
+    if every:
+        low = min(e for _, e in every)
+        axes.set_ylim(low / 3, min(10, max(e for _, e in every)) * 2)
     axes.axhline(scene.tolerance, color=INK, linewidth=.9, linestyle=(0, (6, 3)), zorder=1)
     axes.annotate("tolerance", (1, scene.tolerance), xycoords=("axes fraction", "data"), xytext=(-2, 2),
                   textcoords="offset points", fontsize=8, ha="right")

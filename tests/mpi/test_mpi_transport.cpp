@@ -40,7 +40,7 @@ const auto before_mpi = thrown<tsubu::input_error>([] { tsubu::mpi_transport on(
 
 TEST_CASE("a transport is made while MPI runs, over ranks of one group", "[comm][mpi][input]") {
     INFO(before_mpi);
-    CHECK(says(before_mpi, "MPI is not running; call it between MPI_Init and MPI_Finalize"));
+    CHECK(says(before_mpi, "MPI is not running; make a tsubu::mpi_environment first"));
     int rank = 0;
     int size = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -41,8 +41,8 @@ public:
     /// A number in [0, 1) with 53 random bits.
     constexpr double unit() noexcept { return static_cast<double>((*this)() >> 11) * 0x1p-53; }
 
-    static constexpr result_type min() noexcept { return 0; }
-    static constexpr result_type max() noexcept { return ~result_type{0}; }
+    static constexpr result_type(min)() noexcept { return 0; }
+    static constexpr result_type(max)() noexcept { return ~result_type{0}; }
 
 private:
     std::uint64_t state_;

@@ -288,10 +288,10 @@ private:
         const auto twice = duplicate_ids(*on_, store_.owned()[tsubu::id]);
         if (twice.empty()) return;
         tsubu::detail::raise<input_error>("dem::run::start",
-                                          std::to_string(twice.total) + " ids are given to more than one particle" +
+                                          "ids that more than one particle has: " + std::to_string(twice.total) +
                                               (twice.here.empty()
                                                    ? ""
-                                                   : ", " + std::to_string(twice.here[0].id) + " is one"),
+                                                   : ", among them " + std::to_string(twice.here[0].id)),
                                           "give each particle its own: contacts are remembered by it");
     }
     void look() {

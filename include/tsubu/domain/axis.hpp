@@ -189,7 +189,7 @@ public:
     /// The shortest displacement from b to a [m]; half a period is +L/2 to the higher coordinate, -L/2 to the lower.
     [[nodiscard]] constexpr double minimum_image(lattice<Int> a, lattice<Int> b) const noexcept {
         const Int way = a - b;
-        if (way == std::numeric_limits<Int>::min()) return a > b ? length() / 2 : -length() / 2;
+        if (way == (std::numeric_limits<Int>::min)()) return a > b ? length() / 2 : -length() / 2;
         return length_of(static_cast<double>(way));
     }
     /// The length of so many lattice steps [m].
@@ -197,12 +197,12 @@ public:
 
 private:
     // 2^b; a quotient by it is exact, and a product with L that comes after does not underflow.
-    static constexpr double steps = -2.0 * static_cast<double>(std::numeric_limits<Int>::min());
+    static constexpr double steps = -2.0 * static_cast<double>((std::numeric_limits<Int>::min)());
 
     [[nodiscard]] static constexpr double from_lower_face(lattice<Int> x) noexcept {
         return static_cast<double>(static_cast<std::make_unsigned_t<Int>>(
             static_cast<std::make_unsigned_t<Int>>(x.value) -
-            static_cast<std::make_unsigned_t<Int>>(std::numeric_limits<Int>::min())));
+            static_cast<std::make_unsigned_t<Int>>((std::numeric_limits<Int>::min)())));
     }
 
     axis<double> real_;

@@ -81,7 +81,7 @@ private:
             using Int = decltype(whole.lo().value);
             // floor(k 2^b / parts), by long division: quotient and remainder of 2^(b-1), since 2^64 fits no word, each
             // times 2 k.
-            constexpr auto half = static_cast<std::uint64_t>(std::numeric_limits<Int>::max()) + 1;
+            constexpr auto half = static_cast<std::uint64_t>((std::numeric_limits<Int>::max)()) + 1;
             const std::uint64_t quotient = half / parts;
             const std::uint64_t rest = half % parts;
             const std::uint64_t steps = 2 * quotient * k + 2 * rest * k / parts;

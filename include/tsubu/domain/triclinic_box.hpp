@@ -244,7 +244,7 @@ private:
     // A shift that is at its end stays there.
     static std::int64_t later(std::int64_t shift, Scalar steps) noexcept {
         using limits = std::numeric_limits<std::int64_t>;
-        return shift == limits::max() || shift == limits::min() ? shift : shift + static_cast<std::int64_t>(steps);
+        return shift == (limits::max)() || shift == (limits::min)() ? shift : shift + static_cast<std::int64_t>(steps);
     }
     [[nodiscard]] bool is_inside(const position_type& fraction, std::size_t k) const noexcept {
         return !cell_.along(k).is_periodic() || cell_.along(k).contains(fraction[k]);
@@ -252,7 +252,7 @@ private:
     /// For a coordinate with no digit left below the period.
     void bring_near(wrapped<D, Scalar>& at, std::size_t k) const noexcept {
         using limits = std::numeric_limits<std::int64_t>;
-        at.shift[k] = at.position[k] > lo_[k] ? limits::max() : limits::min();
+        at.shift[k] = at.position[k] > lo_[k] ? (limits::max)() : (limits::min)();
         at.position[k] = lo_[k] + std::fmod(at.position[k], edges_[k][k]);
     }
     /// For a position that rounds to just outside, whichever image is taken: moved into the cell by the fewest steps of

@@ -350,7 +350,7 @@ private:
         }
         if (other == rank && shift == image_shift<D>{}) return;
         // In units of the cutoff, or of nothing if that is 0: then gaps are 0 or too large.
-        const long double unit = cutoff > 0 ? cutoff : std::numeric_limits<real>::min();
+        const long double unit = cutoff > 0 ? cutoff : (std::numeric_limits<real>::min)();
         long double square = 0;
         long double rounding = 0;
         for (std::size_t j = 0; j < D; ++j) {

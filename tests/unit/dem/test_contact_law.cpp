@@ -449,6 +449,9 @@ TEST_CASE("a parameter that cannot be is named, with its value and the remedy", 
     check_says(thrown<input_error>([] { hooke<coulomb>{{1}, {-1, 0}}; }), "dem::coulomb: friction mu = -1; ");
     check_says(thrown<input_error>([] { hooke<coulomb>{{1}, {1, not_a_number}}; }),
                "dem::coulomb: damping gamma_t = nan 1/s; ");
+    check_says(thrown<input_error>([] { hooke<coulomb>{{1}, {.mu = .5, .gamma_t = 0}}; }),
+               "dem::coulomb: damping gamma_t = 0 1/s; without it there is no friction");
+    CHECK_NOTHROW(hooke<coulomb>{{1}, {0, 0}});
     check_says(thrown<input_error>([] { hooke<linear_history>{{1}, {0, 1}}; }),
                "dem::linear_history: stiffness k_t = 0 N/m; ");
     check_says(thrown<input_error>([] { hertz<mindlin_history>{{1}, {-1, 1}}; }),

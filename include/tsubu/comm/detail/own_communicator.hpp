@@ -22,7 +22,8 @@ public:
         MPI_Initialized(&running);
         MPI_Finalized(&ended);
         if (running == 0 || ended != 0)
-            raise<input_error>(where, "MPI is not running", "call it between MPI_Init and MPI_Finalize");
+            raise<input_error>(where, "MPI is not running",
+                               "make a tsubu::mpi_environment first, or call it between MPI_Init and MPI_Finalize");
         if (of == MPI_COMM_NULL) raise<input_error>(where, "the communicator is null", "pass one of this rank's own");
         int inter = 0;
         check_mpi(MPI_Comm_test_inter(of, &inter), "MPI_Comm_test_inter");

@@ -32,11 +32,15 @@ struct coulomb {
     template <std::size_t D>
     static constexpr std::size_t history_size = 0;
     double mu;       ///< coefficient of friction
-    double gamma_t;  ///< damping per effective mass [1/s]
+    double gamma_t;  ///< damping per effective mass [1/s], above 0 if mu is
 
     void check() const {
         detail::check_not_negative("dem::coulomb", "friction mu", mu, "");
         detail::check_not_negative("dem::coulomb", "damping gamma_t", gamma_t, "1/s");
+        if (mu > 0 && gamma_t == 0)
+            detail::refuse_parameter("dem::coulomb", "damping gamma_t", gamma_t, "1/s",
+                                     "without it there is no friction, whatever mu: give some times the inverse "
+                                     "duration of a contact, or take frictionless");
     }
     [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>

@@ -179,7 +179,7 @@ template <class Number>
             if (denormals_are_zero()) others = std::bit_cast<Int>((std::numeric_limits<Number>::min)()) - 1;
             return greatest ? others : static_cast<Int>(-1 - others);
         }
-        if (bits < 0) return static_cast<Int>(bits ^ std::numeric_limits<Int>::max());
+        if (bits < 0) return static_cast<Int>(bits ^ (std::numeric_limits<Int>::max)());
     }
     return bits;
 }

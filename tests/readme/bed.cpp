@@ -11,7 +11,7 @@ static_assert(scene::bytes_per_particle == 8 + 5 * 24 + 16);  // id; x, v, f, sp
 static_assert(!scene::store_type::has<decltype(tsubu::radius)>);  // all are alike: equal_spheres
 
 int main() {
-    tsubu::self_transport on;  // over MPI: mpi_transport, and one rank adds, prints and writes
+    tsubu::self_transport on;  // over MPI: mpi_transport; one rank adds and prints, all measure, each writes its file
     const scene::box_type box({0, 0, 0}, {6, 6, 12}, {.periodic = {true, true, false}});
     auto bed = dem::make_run<scene>(box, {.time_step = 2e-3, .skin = 0.1}, on,
                                     scene::contact_type{{.k = 1e4, .gamma = 60}, {.k_t = 1e4 * 2 / 7, .mu = 0.5}},

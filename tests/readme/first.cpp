@@ -4,7 +4,7 @@
 #include <cstdio>
 
 int main() {
-    tsubu::self_transport on;  // or, with <tsubu/mpi.hpp>: tsubu::mpi_transport on(MPI_COMM_WORLD);
+    tsubu::self_transport on;  // over MPI: <tsubu/mpi.hpp>, an mpi_environment, and mpi_transport here
     const tsubu::domain<3> box({0, 0, 0}, {1, 1, 1}, {.periodic = {true, true, false}});
     const tsubu::brick_decomposition bricks(box, on.ranks());
     tsubu::particle_store<tsubu::fields<tsubu::id, tsubu::position<3>>> grains;

@@ -18,10 +18,10 @@ struct tree_storage {
     void assign(id_type id, tsubu::index_t index) { tree[id] = index; }
     bool erase(id_type id) noexcept { return tree.erase(id) != 0; }
     void rebuild(std::span<const id_type> ids, tsubu::id_range<id_type>, std::span<tsubu::index_t> links) {
-        std::map<id_type, tsubu::index_t> fresh;  // if memory runs out, the old tree is still whole
-        for (auto i = ids.size(); i-- > 0;) {     // backwards: the lowest index of an id stays
-            auto& place = fresh.try_emplace(ids[i], tsubu::absent).first->second;
-            const auto next = std::exchange(place, static_cast<tsubu::index_t>(i));
+        std::map<id_type, tsubu::index_t> fresh;
+        for (const auto id : ids) fresh.try_emplace(id, tsubu::absent);  // without memory all stays as it was
+        for (auto i = ids.size(); i-- > 0;) {                            // backwards: the lowest index stays
+            const auto next = std::exchange(fresh.find(ids[i])->second, static_cast<tsubu::index_t>(i));
             if (!links.empty()) links[i] = next;
         }
         tree.swap(fresh);

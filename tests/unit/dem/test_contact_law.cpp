@@ -450,7 +450,7 @@ TEST_CASE("a parameter that cannot be is named, with its value and the remedy", 
     check_says(thrown<input_error>([] { hooke<coulomb>{{1}, {1, not_a_number}}; }),
                "dem::coulomb: damping gamma_t = nan 1/s; ");
     check_says(thrown<input_error>([] { hooke<coulomb>{{1}, {.mu = .5, .gamma_t = 0}}; }),
-               "dem::coulomb: damping gamma_t = 0 1/s; without it there is no friction");
+               "dem::coulomb: damping gamma_t = 0 1/s; give a finite number above 0");
     CHECK_NOTHROW(hooke<coulomb>{{1}, {0, 0}});
     check_says(thrown<input_error>([] { hooke<linear_history>{{1}, {0, 1}}; }),
                "dem::linear_history: stiffness k_t = 0 N/m; ");

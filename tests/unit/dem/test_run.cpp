@@ -334,7 +334,7 @@ TEST_CASE("an id that two particles have, and a spin that is no number, are refu
         });
         INFO(said[0] << '\n' << said[1]);
         if (is_twice) {
-            CHECK(says(said[0] + said[1], "dem::run::start: 1 ids are given to more than one particle, 9 is one"));
+            CHECK(says(said[0] + said[1], "dem::run::start: ids that more than one particle has: 1, among them 9"));
             CHECK(says(said[0], "give each particle its own"));
             CHECK(says(said[1], "give each particle its own"));
         } else {

@@ -39,8 +39,8 @@ struct coulomb {
         detail::check_not_negative("dem::coulomb", "damping gamma_t", gamma_t, "1/s");
         if (mu > 0 && gamma_t == 0)
             detail::refuse_parameter("dem::coulomb", "damping gamma_t", gamma_t, "1/s",
-                                     "without it there is no friction, whatever mu: give some times the inverse "
-                                     "duration of a contact, or take frictionless");
+                                     "give a finite number above 0, some times the inverse duration of a contact: "
+                                     "without it there is no friction, whatever mu");
     }
     [[nodiscard]] double viscosity(double mass, double) const noexcept { return gamma_t * mass; }
     template <std::size_t D, class Real>

@@ -10,19 +10,6 @@ if(TSUBU_BUILD_TESTS)
             "CMAKE_PREFIX_PATH, or set TSUBU_BUILD_TESTS=OFF")
     endif()
     find_package(Python3 COMPONENTS Interpreter REQUIRED) # cmake/layers.py
-
-    # find_python_with(MODULE OUT): the python of the system, where packages put modules, or the first in PATH; empty if
-    # neither has it.
-    function(find_python_with module out)
-        set(${out} "" PARENT_SCOPE)
-        foreach(candidate IN ITEMS /usr/bin/python3 python3)
-            execute_process(COMMAND "${candidate}" -c "import ${module}" RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
-            if(result EQUAL 0)
-                set(${out} "${candidate}" PARENT_SCOPE)
-                break()
-            endif()
-        endforeach()
-    endfunction()
 endif()
 
 if(TSUBU_BUILD_BENCH)

@@ -295,6 +295,13 @@ class Front(Folder):
         path = self.file("id.json.gz", map_rows({"flat": {1: 1}}) + [{"name": "uniform", "group_seconds": 3.0}])
         self.assertEqual(Figures([path]).results["id"].counts(), [100000])
 
+    def test_rows_that_are_no_figures_are_refused(self):
+        good = map_rows({"flat": {1: 10}})[0]
+        for bad in ("a text", None, {"items_per_second": 1}, {**good, "name": 7},
+                    *({**good, "items_per_second": x} for x in (0, -1, float("nan"), float("inf"), "1", None, True))):
+            with self.subTest(bad), self.assertRaisesRegex(reading.Refusal, "row 2"):
+                reading.contents_of(self.file("rows.json", [good, bad]))
+
     def test_what_is_no_run_is_refused(self):
         path = os.path.join(self.folder.name, "half.json")
         with open(path, "w", encoding="utf-8") as file:

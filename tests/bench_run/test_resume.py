@@ -93,6 +93,17 @@ class StoppedRun(unittest.TestCase):
         self.assertEqual(run(self.path, "--only", "third").returncode, 0)
         self.assertEqual(finished(self.path), ["dem/third"])
 
+    def test_figures_whose_conditions_are_gone_are_not_gone_on_with(self):
+        for condition, without in (("commit", ""), ("date", ""), ("date", '  "date": "",')):
+            self.assertEqual(run(self.path, "--only", "first").returncode, 0)
+            lines = [without if line.startswith(f'  "{condition}":') else line
+                     for line in text_of(self.path).split("\n")]
+            with open(self.path, "w", encoding="utf-8") as file:
+                file.write("\n".join(line for line in lines if line))
+            again = run(self.path, "--resume")
+            self.assertNotEqual(again.returncode, 0)
+            self.assertIn(condition, again.stderr)
+
     def test_a_torn_line_is_left_out(self):
         """As after a power failure: the file ends within a row."""
         self.assertEqual(run(self.whole).returncode, 0)
